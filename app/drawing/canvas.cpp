@@ -39,8 +39,9 @@ struct Resting {
     Refinement refinement;
 
     Resting(render::FrameRenderer& renderer, render::DepthOrder& order, const Screen& screen,
-            Picture picture, std::span<const render::View> eyes)
-        : of(screen), refinement(renderer, order, std::move(picture), screen.held->onGpu, eyes) {}
+            Picture picture, std::span<const render::View> eyes, bool atOnce)
+        : of(screen),
+          refinement(renderer, order, std::move(picture), screen.held->onGpu, eyes, atOnce) {}
     bool is(const Screen& screen, std::span<const render::View> eyes) const {
         return of.sorted == screen.sorted && of.explorer == screen.explorer &&
                std::ranges::equal(refinement.eyes(), eyes);
@@ -295,8 +296,9 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
     if (!resting || !resting->is(*screen, eyes)) {
         render::Scene scene = sceneOf(*screen);
         render::Legend legend = state_->telling.legend(*screen, scene, true);
+        const bool atOnce = state_->keepsTo(limits, scene, eyes);
         resting.emplace(state_->renderer, state_->order, *screen,
-                        Picture{std::move(scene), std::move(legend)}, eyes);
+                        Picture{std::move(scene), std::move(legend)}, eyes, atOnce);
     }
     Refinement& refinement = resting->refinement;
     if (refinement.order()) {

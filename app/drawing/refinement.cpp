@@ -18,14 +18,15 @@ constexpr auto kSlice = 16ms;
 }  // namespace
 
 Refinement::Refinement(render::FrameRenderer& renderer, render::DepthOrder& order, Picture picture,
-                       const render::GlStep& onGpu, std::span<const render::View> eyes)
+                       const render::GlStep& onGpu, std::span<const render::View> eyes, bool atOnce)
     : renderer_(renderer),
       picture_(std::move(picture)),
       eyes_(eyes.begin(), eyes.end()),
       content_{picture_.scene, picture_.scene.step.grid(), picture_.legend, kBackground},
       onGpu_(onGpu),
       order_(order),
-      sortsHere_(!renderer.splatters().sortsOnGpu(picture_.scene, onGpu)) {
+      sortsHere_(!(atOnce && render::ProcessorSplatter::sortsWhenDrawn(picture_.scene)) &&
+                 !renderer.splatters().sortsOnGpu(picture_.scene, onGpu)) {
     const render::Scene& scene = picture_.scene;
     if (!sortsHere_) return;
     order_.begin(scene, render::midEye(eyes_));

@@ -17,9 +17,10 @@ namespace app {
 class Refinement {
  public:
     // The renderer, `order`, which has no other user meanwhile, `onGpu`, ready for the picture, and
-    // what the picture refers to must outlive this. REQUIRES: at least one eye, all of one size.
+    // what the picture refers to must outlive this. `atOnce`: one goOn() is expected to draw it.
+    // REQUIRES: at least one eye, all of one size.
     Refinement(render::FrameRenderer& renderer, render::DepthOrder& order, Picture picture,
-               const render::GlStep& onGpu, std::span<const render::View> eyes);
+               const render::GlStep& onGpu, std::span<const render::View> eyes, bool atOnce);
     ~Refinement() { order_.shrink(); }
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
@@ -46,7 +47,7 @@ class Refinement {
     const render::FrameContent content_;
     const render::GlStep& onGpu_;
     render::DepthOrder& order_;
-    bool sortsHere_;  // the program does
+    bool sortsHere_;  // the program does, before anything is drawn
     // The share of all that is to be done of what is made before, and of that what is made.
     double making_ = 0, made_ = 0;
     std::optional<const render::FrameRenderer::Prepared> frame_;  // once it is ordered

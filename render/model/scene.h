@@ -148,17 +148,17 @@ inline double valueOf(const timeseries::Columns& columns, std::uint64_t point) {
                       columns.values);
 }
 
-// The draw list: the runs as they lie; one list of all layers' points, farthest first; or, for GL
-// alone, that the GPU is to make such a list, of distances from here.
+// The draw list: the runs as they lie; one list of all layers' points, farthest first; or that who
+// made it for itself puts them in that order when it draws them, by distances from here.
 struct Runs {};
-struct SortedOnGpu {
+struct SortWhenDrawn {
     glm::dvec3 midEye;
 };
 struct Sorted {
     std::vector<std::uint32_t> point;  // position in the sorted step
     std::vector<std::uint8_t> layer;
 };
-using DrawList = std::variant<Runs, Sorted, SortedOnGpu>;
+using DrawList = std::variant<Runs, Sorted, SortWhenDrawn>;
 
 // What a plane of pixels accumulates. Weight (W) and WeightedColor (W times colour, W) belong to
 // one layer each; Over (premultiplied colour, opacity) and Count (splats that touch the pixel) take

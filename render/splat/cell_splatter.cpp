@@ -122,7 +122,7 @@ void CellSum::Work::sum(std::span<const CellOfLayer> part, bool lastOfAll) {
             return std::ranges::any_of(
                 seen, [&](const CellMemory::Seen& some) { return some.bins.count(tile) > 0; });
         },
-        [&](std::size_t tile, TileRoom& room) {
+        [&](unsigned, std::size_t tile, TileRoom& room) {
             for (const CellMemory::Seen& some : seen) some.sum(view, tile, room);
         });
 }

@@ -52,7 +52,7 @@ DepthKeys depthKeysOf(const Scene& scene, const glm::dvec3& midEye) {
                                   glm::length(scene.placed.worldFromAxes() * glm::dvec3(x, y, z)));
     const double away = glm::length(midEye);
     const double span = away + radius - std::max(away - radius, 0.0);
-    return {radius, span > 0 ? DepthKeys::kLast / span : 0};
+    return {radius, away + radius, span > 0 ? DepthKeys::kLast / span : 0};
 }
 
 void DepthOrder::begin(const Scene& scene, const glm::dvec3& midEye) {
@@ -62,9 +62,7 @@ void DepthOrder::begin(const Scene& scene, const glm::dvec3& midEye) {
     scene_ = &scene;
     source_.emplace(scene);
     distances_.emplace(scene, midEye);
-    const DepthKeys keys = depthKeysOf(scene, midEye);
-    farthest_ = glm::length(midEye) + keys.radius;
-    perUnit_ = keys.perUnit;
+    keys_ = depthKeysOf(scene, midEye);
     all_ = count_ = passed_ = 0;
     for (const Layer& layer : scene.layers) all_ += splatCount(layer, scene.stride);
     // Room alone: it is written slice by slice.
@@ -135,8 +133,7 @@ void DepthOrder::findKeys(std::span<Keyed> slice) {
             for (std::size_t j = 0; j < some; ++j) {
                 Keyed& splat = part[i + j] = kClipped;
                 if (away[j] < 0) continue;
-                const double key = std::max(farthest_ - away[j], 0.0) * perUnit_ + 0.5;
-                splat = static_cast<Keyed>(std::min(key, DepthKeys::kLast)) << kKeyAt |
+                splat = Keyed{keys_.of(away[j])} << kKeyAt |
                         Keyed{points_.layer[first + i + j]} << kLayerAt | point[j];
                 for (const unsigned half : {0u, 1u}) ++counts[k][half][halfOf(splat, half)];
             }

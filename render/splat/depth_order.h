@@ -1,6 +1,7 @@
 // The draw list of a frame: which splats are drawn one after another. Pure.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -19,8 +20,14 @@ namespace render {
 struct DepthKeys {
     static constexpr unsigned kBits = 22;
     static constexpr double kLast = (1u << kBits) - 1;
-    double radius;   // of the points about the world's origin
-    double perUnit;  // 0 where all are equally far away
+    double radius;    // of the points about the world's origin
+    double farthest;  // away from the eye, that any may be
+    double perUnit;   // 0 where all are equally far away
+
+    std::uint32_t of(double away) const {
+        const double key = std::max(farthest - away, 0.0) * perUnit + 0.5;
+        return static_cast<std::uint32_t>(std::min(key, kLast));
+    }
 };
 DepthKeys depthKeysOf(const Scene& scene, const glm::dvec3& midEye);
 
@@ -59,7 +66,7 @@ class DepthOrder {
     const Scene* scene_ = nullptr;
     std::optional<SplatSource> source_;
     std::optional<Distances> distances_;
-    double farthest_ = 0, perUnit_ = 0;
+    DepthKeys keys_{};
     std::uint64_t all_ = 0;   // splats, those clipped included
     std::size_t count_ = 0;   // that are listed
     std::size_t passed_ = 0;  // of them, in this phase

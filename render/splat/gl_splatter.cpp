@@ -194,7 +194,7 @@ void GlSplatter::setLayers(const Scene& scene, const ValueScale& scale) {
 
 DrawList GlSplatter::order(const Scene& scene, const glm::dvec3& midEye) {
     if (scene.order == Order::None) return Runs{};
-    return SortedOnGpu{midEye};
+    return SortWhenDrawn{midEye};
 }
 
 // With values of its own.
@@ -221,7 +221,7 @@ std::unique_ptr<GlList> GlSplatter::upload(const Scene& scene, const DrawList& l
     ++counts_.uploads;
     if (const auto* const sorted = std::get_if<Sorted>(&list)) return send(scene, *sorted, step);
     setLayers(scene, step.values() == nullptr ? ValueScale::of(scene.layers) : step.valueScale());
-    const auto* const asked = std::get_if<SortedOnGpu>(&list);
+    const auto* const asked = std::get_if<SortWhenDrawn>(&list);
     if (asked == nullptr) return std::make_unique<GlList>(scene, step);
     if (auto made = listOnGpu(scene, asked->midEye, step)) return made;
     return send(scene, std::get<Sorted>(order_(scene, asked->midEye)), step);

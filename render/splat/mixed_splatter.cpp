@@ -25,7 +25,11 @@ constexpr std::size_t kWorthAThread = 1 << 10;
 
 // What of several points is drawn, and where: of all threads', in the order of the list.
 struct Points {
-    SplatList list;
+    struct {
+        std::vector<std::uint32_t> index;
+        std::vector<float> tint;
+        std::vector<SeenSplat> seen;
+    } list;
     std::vector<TileSpan> spans;
     std::vector<std::uint32_t> place;  // in `list`: of a mesh, what its index is then
 
@@ -117,7 +121,9 @@ void Part::look(const Scene& scene, const CellView& cells, const TileView& splat
                   points.list.index.begin() + std::ptrdiff_t(last),
                   static_cast<std::uint32_t>(first));
     } else {
-        findTiles(splats, points.list, first, last, points.spans);
+        const std::size_t count = last - first;
+        findTiles(splats, std::span(points.list.index).subspan(first, count),
+                  std::span(points.spans).subspan(first, count));
     }
     bin(cells, points, first, last);
 }
@@ -240,7 +246,7 @@ void MixedSum::Work::sum(std::span<const CellOrPoint> some, bool lastOfAll) {
         [&](std::size_t tile) {
             return std::ranges::any_of(looked, [&](const Part& part) { return part.holds(tile); });
         },
-        [&](std::size_t tile, TileRoom& room) {
+        [&](unsigned, std::size_t tile, TileRoom& room) {
             TileRoom splatRoom(splats);
             splatRoom.enter(splats, tile, opaqueDepth, width);
             for (const Part& part : looked) part.sum(cells, splats, tile, room, splatRoom);

@@ -12,9 +12,12 @@ namespace render {
 
 class ProcessorSplatter final : public Splatter {
  public:
+    // By the tiles themselves, where those draw it.
     DrawList order(const Scene& scene, const glm::dvec3& midEye) override {
+        if (sortsWhenDrawn(scene)) return SortWhenDrawn{midEye};
         return order_(scene, midEye);
     }
+    static bool sortsWhenDrawn(const Scene& scene);
     // Asks nothing of the step on the GPU.
     std::unique_ptr<SplatFrame> prepare(const Scene& scene, DrawList list,
                                         const GlStep& step) override;

@@ -155,7 +155,7 @@ struct SeenLanes {
                 const D level = hn::Load(Doubles(), of.level + h * lanes);
                 along[2] = hn::MulAdd(level, d(view.levelScale), along[2]);
             }
-            half[h] = see(view, along);
+            half[h] = see(view, view.viewFromAxes, along);
             for (std::size_t k = 0; k < 2; ++k) {
                 const D window = hn::Add(half[h].centre[k], d(view.centre[k]));
                 const auto some = hn::Lt(hn::Abs(window), d(kFarthest));

@@ -17,13 +17,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kAllPixels = 4e9f;  // of offsets and window positions: nothing beyond is seen
 
-// Where the eye sees points that lie there in axis coordinates, half as many.
+// Where the eye sees points that lie there in coordinates that `m`'s columns take into the view,
+// half as many.
 struct SeenHalf {
     D depth, perDepth, windowDepth;
     D centre[2];  // in pixels from the view axis
 };
-HWY_INLINE SeenHalf see(const TileView& view, const D* along) {
-    const auto& m = view.viewFromAxes;
+HWY_INLINE SeenHalf see(const TileView& view, const TileView::Columns& m, const D* along) {
     D seen[3];
     for (std::size_t k = 0; k < 3; ++k)
         seen[k] = hn::MulAdd(

@@ -1,6 +1,7 @@
 #include "render/splat/splat_source.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace render {
 
@@ -46,9 +47,16 @@ void SplatSource::nextOfRuns(std::uint64_t atMost, SplatPoints& points) {
         const timeseries::Run& whole = layer.runs[run_];
         timeseries::Run part{whole.first + passed_, whole.count - passed_};
         part.count = std::min(part.count, (atMost - points.point.size()) * stride);
-        forEachInSubset(part, stride, [&](std::uint64_t point) {
-            points.point.push_back(static_cast<std::uint32_t>(point));
-        });
+        if (stride == 1) {
+            const auto first = static_cast<std::uint32_t>(part.first);
+            const auto all =
+                std::views::iota(first, first + static_cast<std::uint32_t>(part.count));
+            points.point.insert(points.point.end(), all.begin(), all.end());
+        } else {
+            forEachInSubset(part, stride, [&](std::uint64_t point) {
+                points.point.push_back(static_cast<std::uint32_t>(point));
+            });
+        }
         points.layer.resize(points.point.size(), static_cast<std::uint8_t>(layer_));
         passed_ += part.count;
         if (passed_ == whole.count) ++run_, passed_ = 0;

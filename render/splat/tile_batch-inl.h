@@ -23,8 +23,8 @@ struct Batch {
     // n(o) times what the pixel's ray gives.
     alignas(64) float ox[kLanes], oy[kLanes], nxx[kLanes], nxy[kLanes], nyy[kLanes];
     alignas(64) float dxx[kLanes], dxy[kLanes], dyy[kLanes], lx[kLanes], ly[kLanes];
-    // |d - 1| on its pixels, at most; 0 of points and of even ones.
-    alignas(64) float change[kLanes] = {};
+    // Of uneven ones: |d - 1| on its pixels, at most. Of Over: its optical depth there, at most.
+    alignas(64) float change[kLanes], mostDepth[kLanes];
     alignas(64) float weight[kLanes], depth[kLanes], red[kLanes], green[kLanes], blue[kLanes];
     alignas(64) std::int32_t x[kLanes], y[kLanes], columns[kLanes], rows[kLanes];
 };
@@ -65,39 +65,36 @@ HWY_INLINE void keepForms(const Forms& forms, Batch& out) {
     setUpChange(out);
 }
 
-template <bool kEven>
-HWY_INLINE F setUpFootprint(const TileView& view, const Points& p, Batch& out) {
-    F c[3], x[3], y[3];
-    F perSemiAxis[3], weight = f(view.weight), grown = f(1);
-    if constexpr (kEven) {
-        grown = growth(view, p);
-        for (std::size_t a = 0; a < 3; ++a) perSemiAxis[a] = f(1 / view.semiAxes[a]);
-    } else {
-        F sides[3], semiAxes[3];
-        sidesOf(view, p, sides);
-        semiAxesOf(view, p, semiAxes);
-        for (std::size_t a = 0; a < 3; ++a) {
-            perSemiAxis[a] = hn::Div(f(1), semiAxes[a]);
-            weight = hn::Mul(weight, hn::Mul(sides[a], perSemiAxis[a]));
-        }
-    }
+// Where the ray is that much of them, of even splats. Returns what they weigh.
+HWY_INLINE F setUpEven(const TileView& view, const Points& p, Batch& out) {
+    const F x = p.centre[0], y = p.centre[1];
+    const F perGrown = hn::Div(f(1), growth(view, p)), scale = hn::Mul(p.depth, perGrown);
+    const F scale2 = hn::Mul(scale, scale);
+    const auto square = [&](const std::array<float, 3>& c, F at) HWY_ATTR {
+        return hn::MulAdd(hn::MulAdd(f(c[2]), at, f(c[1])), at, f(c[0]));
+    };
+    const F xy = hn::MulAdd(hn::MulAdd(f(view.nxy[3]), y, f(view.nxy[1])), x,
+                            hn::MulAdd(f(view.nxy[2]), y, f(view.nxy[0])));
+    const F n[3] = {hn::Mul(scale2, square(view.nxx, y)), hn::Mul(scale2, xy),
+                    hn::Mul(scale2, square(view.nyy, x))};
+    keepForm(n, out);
+    return hn::Mul(f(view.weight), hn::Mul(perGrown, perGrown));
+}
+
+HWY_INLINE F setUpUneven(const TileView& view, const Points& p, Batch& out) {
+    F c[3], x[3], y[3], sides[3], semiAxes[3], weight = f(view.weight);
+    sidesOf(view, p, sides);
+    semiAxesOf(view, p, semiAxes);
     for (std::size_t a = 0; a < 3; ++a) {
-        c[a] = hn::Mul(rayOf(view, p.centre, a), perSemiAxis[a]);
-        x[a] = hn::Mul(f(view.perPixelX[a]), perSemiAxis[a]);
-        y[a] = hn::Mul(f(view.perPixelY[a]), perSemiAxis[a]);
+        const F perSemiAxis = hn::Div(f(1), semiAxes[a]);
+        weight = hn::Mul(weight, hn::Mul(sides[a], perSemiAxis));
+        c[a] = hn::Mul(rayOf(view, p.centre, a), perSemiAxis);
+        x[a] = hn::Mul(f(view.perPixelX[a]), perSemiAxis);
+        y[a] = hn::Mul(f(view.perPixelY[a]), perSemiAxis);
     }
-    if constexpr (kEven) {
-        const F perGrown2 = hn::Div(f(1), hn::Mul(grown, grown));
-        F n[3];
-        crossForm(c, x, y, hn::Mul(hn::Mul(p.depth, p.depth), perGrown2), n);
-        keepForm(n, out);
-        weight = hn::Mul(weight, perGrown2);
-    } else {
-        const Forms forms = formsOf(c, x, y, p.depth);
-        keepForms(forms, out);
-        weight = hn::Mul(weight, hn::Sqrt(forms.perC2));
-    }
-    return weight;
+    const Forms forms = formsOf(c, x, y, p.depth);
+    keepForms(forms, out);
+    return hn::Mul(weight, hn::Sqrt(forms.perC2));
 }
 
 HWY_INLINE void setUpBox(const TileView& view, const Points& p, glm::ivec2 at, glm::ivec2 limit,
@@ -183,24 +180,27 @@ HWY_INLINE void takeSeen(const TileView& view, const std::uint32_t* index, glm::
     hn::Store(record[kSeenDepth], floats, out.depth);
 }
 
-HWY_INLINE void setUp(const TileView& view, const std::uint32_t* index, const float* tints,
+// What splats are: squares of whole pixels; spheres or other ellipsoids that are all alike, whose
+// factor is everywhere the same or a pixel's; or others.
+enum class Shape { Square, Sphere, Even, Uneven };
+
+template <Shape kShape>
+HWY_INLINE void setUp(const TileView& view, const std::uint32_t* words, const float* tints,
                       glm::ivec2 at, glm::ivec2 size, Batch& out) {
-    if (!view.meshSplats.empty()) {
-        takeSeen(view, index, at, size, out);
-        const F weight = hn::Load(Floats(), out.weight);
-        if (tints != nullptr)
-            hn::Store(hn::Mul(weight, setUpTints(view, tints, out)), Floats(), out.weight);
-        return;
-    }
-    const Points p = see(view, index, view.pointSide > 0 ? glm::ivec2(0) : at);
-    setUpBox(view, p, at, size, out);
     F weight;
-    if (view.pointSide > 0)
-        weight = hn::Mul(hn::Mul(f(view.weight), volume(view, p)), hn::Mul(p.perDepth, p.perDepth));
-    else
-        weight =
-            view.even ? setUpFootprint<true>(view, p, out) : setUpFootprint<false>(view, p, out);
-    weight = hn::Mul(weight, faded(view, p.depth));
+    if (kShape == Shape::Uneven && !view.meshSplats.empty()) {
+        takeSeen(view, words, at, size, out);
+        weight = hn::Load(Floats(), out.weight);
+    } else {
+        const Points p = see(view, words, kShape == Shape::Square ? glm::ivec2(0) : at);
+        setUpBox(view, p, at, size, out);
+        if constexpr (kShape == Shape::Square)
+            weight =
+                hn::Mul(hn::Mul(f(view.weight), volume(view, p)), hn::Mul(p.perDepth, p.perDepth));
+        else
+            weight = kShape == Shape::Uneven ? setUpUneven(view, p, out) : setUpEven(view, p, out);
+        weight = hn::Mul(weight, faded(view, p.depth));
+    }
     if (tints != nullptr) weight = hn::Mul(weight, setUpTints(view, tints, out));
     hn::Store(weight, Floats(), out.weight);
 }

@@ -13,20 +13,13 @@
 
 namespace render {
 
-// Splats in the order in which they are summed: grid indices, or their places among a mesh's, and
-// places among the tints, none for Weight.
-struct SplatList {
-    std::vector<std::uint32_t> index;
-    std::vector<float> tint;
-    std::vector<SeenSplat> seen = {};
-};
+// Not of a mesh. Of the points of these grid indices, into the same places; what they are for
+// sumTile() takes the place of the indices.
+void findTiles(const TileView& view, std::span<std::uint32_t> points, std::span<TileSpan> spans);
 
-// Not of a mesh. Of the splats [first, last) of the list, into the same places.
-void findTiles(const TileView& view, const SplatList& list, std::size_t first, std::size_t last,
-               std::span<TileSpan> spans);
-
-// Adds splats, in this order; Over: each before those that come later. Tints as in SplatList.
-void sumTile(const TileView& view, std::span<const std::uint32_t> index,
+// Adds splats, in this order; Over: each before those that come later: as findTiles() leaves them,
+// or places among a mesh's, and places among the tints, none for Weight.
+void sumTile(const TileView& view, std::span<const std::uint32_t> points,
              std::span<const float> tints, TileRoom& room);
 
 }  // namespace render

@@ -52,7 +52,8 @@ struct AddColor {
     }
 };
 
-template <class Lanes, bool kSmall>
+// Without factors the depth has them in it.
+template <class Lanes, bool kSmall, bool kFactors>
 struct LayUnder {
     Lanes lanes;
     hn::Vec<Lanes> color[3], depth;  // optical
@@ -70,7 +71,8 @@ struct LayUnder {
         color[2] = hn::Set(l, b.blue[k]);
     }
     HWY_INLINE void operator()(hn::Vec<Lanes> t, std::size_t at) const {
-        const auto x = hn::Mul(hn::Mul(t, depth), hn::LoadU(lanes, factor + at));
+        auto x = hn::Mul(t, depth);
+        if constexpr (kFactors) x = hn::Mul(x, hn::LoadU(lanes, factor + at));
         layUnder<kSmall>(PixelRow<Lanes>(), lanes, x, color, sums + at, plane);
     }
 };
@@ -161,36 +163,41 @@ HWY_INLINE void addForm(Lanes lanes, const Batch& b, std::size_t k, TileRoom& ro
                                            : forPixels<kForm, false>(lanes, b, k, room, sink);
 }
 
-template <class Lanes, class Sink>
-HWY_INLINE void addSplat(Lanes lanes, const TileView& view, const Batch& b, std::size_t k,
-                         TileRoom& room, const Sink& sink) {
-    if (view.pointSide > 0)
+template <Shape kShape, class Lanes, class Sink>
+HWY_INLINE void addSplat(Lanes lanes, const Batch& b, std::size_t k, TileRoom& room,
+                         const Sink& sink) {
+    if constexpr (kShape == Shape::Square)
         return forSquare(lanes, b, k, room, b.depth[k] > room.nearestOpaque, sink);
-    if (view.even) return addForm<Form::Even>(lanes, b, k, room, sink);
-    return b.change[k] <= kNarrow ? addForm<Form::Narrow>(lanes, b, k, room, sink)
-                                  : addForm<Form::Any>(lanes, b, k, room, sink);
+    else if constexpr (kShape != Shape::Uneven)
+        return addForm<Form::Even>(lanes, b, k, room, sink);
+    else
+        return b.change[k] <= kNarrow ? addForm<Form::Narrow>(lanes, b, k, room, sink)
+                                      : addForm<Form::Any>(lanes, b, k, room, sink);
 }
 
-// The optical depth that the splat gives a pixel, at most.
-HWY_INLINE float mostDepth(const Batch& b, std::size_t k, const TileRoom& room) {
-    return b.weight[k] * room.largestFactor /
-           std::sqrt(std::max(1 - b.change[k], kLeastDenominator));
+template <Channels kChannels, Shape kShape, class Lanes>
+HWY_INLINE void addSplat(Lanes lanes, const Batch& b, std::size_t k, TileRoom& room) {
+    if constexpr (kChannels == Channels::Weight)
+        return addSplat<kShape>(lanes, b, k, room, AddWeight<Lanes>(lanes, b, k, room));
+    else if constexpr (kChannels == Channels::WeightedColor)
+        return addSplat<kShape>(lanes, b, k, room, AddColor<Lanes>(lanes, b, k, room));
+    else if (constexpr bool kFactors = kShape != Shape::Sphere; b.mostDepth[k] <= 0.5f)
+        addSplat<kShape>(lanes, b, k, room, LayUnder<Lanes, true, kFactors>(lanes, b, k, room));
+    else
+        addSplat<kShape>(lanes, b, k, room, LayUnder<Lanes, false, kFactors>(lanes, b, k, room));
 }
 
-template <class Lanes>
-HWY_INLINE void addSplat(Lanes lanes, const TileView& view, const Batch& b, std::size_t k,
-                         TileRoom& room) {
-    switch (view.channels) {
-        case Channels::Weight:
-            return addSplat(lanes, view, b, k, room, AddWeight<Lanes>(lanes, b, k, room));
-        case Channels::WeightedColor:
-            return addSplat(lanes, view, b, k, room, AddColor<Lanes>(lanes, b, k, room));
-        default:
-            break;
+// Over: the optical depths that splats give a pixel, at most; of spheres in the middle.
+template <Shape kShape>
+HWY_INLINE void setUpDepth(const TileRoom& room, Batch& b) {
+    const Floats floats;
+    F most = hn::Mul(hn::Load(floats, b.weight), f(room.largestFactor));
+    if constexpr (kShape == Shape::Uneven) {
+        const F least = hn::Sub(f(1), hn::Load(floats, b.change));
+        most = hn::Div(most, hn::Sqrt(hn::Max(least, f(kLeastDenominator))));
     }
-    if (mostDepth(b, k, room) <= 0.5f)
-        return addSplat(lanes, view, b, k, room, LayUnder<Lanes, true>(lanes, b, k, room));
-    addSplat(lanes, view, b, k, room, LayUnder<Lanes, false>(lanes, b, k, room));
+    if constexpr (kShape == Shape::Sphere) hn::Store(most, floats, b.weight);
+    hn::Store(most, floats, b.mostDepth);
 }
 
 }  // namespace HWY_NAMESPACE

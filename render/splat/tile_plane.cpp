@@ -8,14 +8,9 @@
 namespace render {
 namespace {
 
-// Sums channel by channel, `plane` floats apart, times a pixel's factor if there are any, into
-// pixels.
-template <std::size_t kFloats>
-void storeRow(const float* sums, std::size_t plane, const float* factor, std::size_t width,
-              float* to) {
-    for (std::size_t x = 0; x < width; ++x)
-        for (std::size_t c = 0; c < kFloats; ++c)
-            to[kFloats * x + c] = factor ? factor[x] * sums[c * plane + x] : sums[c * plane + x];
+// Sums times a pixel's factor if there are any.
+void storeRow(const float* sums, const float* factor, std::size_t width, float* to) {
+    for (std::size_t x = 0; x < width; ++x) to[x] = factor ? factor[x] * sums[x] : sums[x];
 }
 
 }  // namespace
@@ -88,9 +83,9 @@ void TilePlane::store(const TileRoom& room, bool lastOfAll) {
         const float* const factor = lastOfAll && isPerRay() ? room.factor.data() + at : nullptr;
         const float* const sums = room.sums.data() + at;
         if (floats_ == 1)
-            storeRow<1>(sums, room.plane, factor, width, raysOf(room.at, row));
+            storeRow(sums, factor, width, raysOf(room.at, row));
         else
-            storeRow<4>(sums, room.plane, factor, width, raysOf(room.at, row));
+            interleaveRow(sums, room.plane, factor, width, raysOf(room.at, row));
     }
 }
 

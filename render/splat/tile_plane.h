@@ -22,8 +22,8 @@ class TilePlane {
     TilePlane(const TileLayout& layout, std::span<const float> opaqueDepth, int pictureWidth,
               unsigned threads, std::vector<float>& plane, std::vector<float>& rays);
 
-    // Calls add(tile, room) for every tile that holds(tile), on so many threads, a tile on one. The
-    // last go of all also writes those that nothing has touched.
+    // Calls add(thread, tile, room) for every tile that holds(tile), on so many threads, a tile on
+    // one. The last go of all also writes those that nothing has touched.
     template <typename Holds, typename Add>
     void sum(unsigned threads, bool lastOfAll, const Holds& holds, const Add& add) {
         if (!lastOfAll) rays_.resize(floatsOf(layout_.box));
@@ -37,7 +37,7 @@ class TilePlane {
                     continue;
                 }
                 load(tile, rooms_[k]);
-                add(tile, rooms_[k]);
+                add(k, tile, rooms_[k]);
                 store(rooms_[k], lastOfAll);
             }
         });

@@ -28,21 +28,52 @@ struct Points {
     F windowDepth;
 };
 
-HWY_INLINE Points see(const TileView& view, const std::uint32_t* index, glm::ivec2 tileAt) {
-    D at[2][3], window[2][2];
+// Of words that stand as findTiles() leaves them.
+HWY_INLINE void indicesOf(const TileView& view, const std::uint32_t* words, I* at) {
+    if (!view.packs) {
+        D half[2][3];
+        for (std::size_t h = 0; h < 2; ++h)
+            alongAxes(view.size, words + h * hn::Lanes(Doubles()), half[h]);
+        for (std::size_t a = 0; a < 3; ++a) at[a] = joinedInts(half[0][a], half[1][a]);
+        return;
+    }
+    const hn::Rebind<std::uint32_t, Floats> whole;
+    const Ints ints;
+    const auto word = hn::LoadU(whole, words);
+    const auto low = [&](auto x, int bits)
+                         HWY_ATTR { return hn::And(x, hn::Set(whole, (1u << bits) - 1)); };
+    at[0] = hn::BitCast(ints, low(word, view.yAt));
+    at[1] = hn::BitCast(ints, low(hn::ShiftRightSame(word, view.yAt), view.zAt - view.yAt));
+    at[2] = hn::BitCast(ints, hn::ShiftRightSame(word, view.zAt));
+}
+HWY_INLINE void pack(const TileView& view, const I* at, std::uint32_t* words) {
+    const auto y = hn::ShiftLeftSame(at[1], view.yAt), z = hn::ShiftLeftSame(at[2], view.zAt);
+    hn::StoreU(hn::Or(at[0], hn::Or(y, z)), Ints(), reinterpret_cast<std::int32_t*>(words));
+}
+
+HWY_INLINE Points see(const TileView& view, const std::uint32_t* words, glm::ivec2 tileAt) {
+    const HalfInts ints;
+    I at[3];
+    D window[2][2];
     SeenHalf half[2];
+    indicesOf(view, words, at);
     for (std::size_t h = 0; h < 2; ++h) {
-        D along[3];
-        alongAxes(view.size, index + h * hn::Lanes(Doubles()), at[h]);
-        positionsOf(view.position, at[h], along);
-        half[h] = see(view, along);
+        D index[3], along[3];
+        for (std::size_t a = 0; a < 3; ++a)
+            index[a] = hn::PromoteTo(Doubles(),
+                                     h ? hn::UpperHalf(ints, at[a]) : hn::LowerHalf(ints, at[a]));
+        if (view.evenlySpaced) {
+            half[h] = see(view, view.viewFromIndices, index);
+        } else {
+            positionsOf(view.position, index, along);
+            half[h] = see(view, view.viewFromAxes, along);
+        }
         for (std::size_t k = 0; k < 2; ++k)
             window[h][k] =
                 hn::Add(half[h].centre[k], d(view.centre[k] - tileAt[static_cast<int>(k)]));
     }
     const auto& [low, high] = half;
-    return {{joinedInts(at[0][0], at[1][0]), joinedInts(at[0][1], at[1][1]),
-             joinedInts(at[0][2], at[1][2])},
+    return {{at[0], at[1], at[2]},
             joined(low.depth, high.depth),
             joined(low.perDepth, high.perDepth),
             {joined(window[0][0], window[1][0]), joined(window[0][1], window[1][1])},
@@ -60,11 +91,13 @@ HWY_INLINE Points seeRoughly(const TileView& view, const std::uint32_t* index) {
     F along[3], seen[3];
     for (std::size_t a = 0; a < 3; ++a) {
         p.at[a] = joinedInts(at[0][a], at[1][a]);
-        along[a] = hn::GatherIndex(floats, view.roughPosition[a].data(), p.at[a]);
+        along[a] = view.evenlySpaced
+                       ? hn::ConvertTo(floats, p.at[a])
+                       : hn::GatherIndex(floats, view.roughPosition[a].data(), p.at[a]);
     }
+    const TileView::Columns& m = view.evenlySpaced ? view.viewFromIndices : view.viewFromAxes;
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto column = [&](std::size_t c)
-                                HWY_ATTR { return f(static_cast<float>(view.viewFromAxes[c][k])); };
+        const auto column = [&](std::size_t c) HWY_ATTR { return f(static_cast<float>(m[c][k])); };
         seen[k] =
             hn::MulAdd(along[0], column(0),
                        hn::MulAdd(along[1], column(1), hn::MulAdd(along[2], column(2), column(3))));

@@ -48,19 +48,32 @@ HWY_ATTR void FillRays(const TileLayout& layout, TileRoom& room) {
     room.largestFactor = hn::GetLane(hn::MaxOfLanes(lanes, most));
 }
 
-// Copies depths and returns the nearest of them, or 1.
-HWY_ATTR float TakeDepths(const float* from, std::size_t count, float* to) {
+// The nearest of these depths, or 1.
+HWY_ATTR float NearestOf(const float* depths, std::size_t count) {
     const Floats lanes;
     F nearest = f(1);
     std::size_t i = 0;
-    for (; i + kLanes <= count; i += kLanes) {
-        const F depths = hn::LoadU(lanes, from + i);
-        hn::StoreU(depths, lanes, to + i);
-        nearest = hn::Min(nearest, depths);
-    }
+    for (; i + kLanes <= count; i += kLanes)
+        nearest = hn::Min(nearest, hn::LoadU(lanes, depths + i));
     float least = hn::GetLane(hn::MinOfLanes(lanes, nearest));
-    for (; i < count; ++i) least = std::min(least, to[i] = from[i]);
+    for (; i < count; ++i) least = std::min(least, depths[i]);
     return least;
+}
+
+HWY_ATTR void InterleaveRow(const float* sums, std::size_t plane, const float* factor,
+                            std::size_t width, float* to) {
+    const Floats lanes;
+    std::size_t x = 0;
+    for (; x + kLanes <= width; x += kLanes) {
+        const F by = factor ? hn::LoadU(lanes, factor + x) : f(1);
+        F of[4];
+        for (std::size_t c = 0; c < 4; ++c)
+            of[c] = hn::Mul(by, hn::LoadU(lanes, sums + c * plane + x));
+        hn::StoreInterleaved4(of[0], of[1], of[2], of[3], lanes, to + 4 * x);
+    }
+    for (; x < width; ++x)
+        for (std::size_t c = 0; c < 4; ++c)
+            to[4 * x + c] = factor ? factor[x] * sums[c * plane + x] : sums[c * plane + x];
 }
 
 }  // namespace HWY_NAMESPACE
@@ -70,7 +83,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace render {
 HWY_EXPORT(FillRays);
-HWY_EXPORT(TakeDepths);
+HWY_EXPORT(InterleaveRow);
+HWY_EXPORT(NearestOf);
 
 TileRoom::TileRoom(const TileLayout& layout) {
     plane = static_cast<std::size_t>(kTileStride * (layout.tile.y + 4)) + 16;
@@ -85,18 +99,19 @@ void TileRoom::enter(const TileLayout& layout, std::size_t tile, std::span<const
     at = cornerOf(layout, tile);
     size = glm::min(layout.tile, layout.box.size - at);
     nearestOpaque = 1;
+    const auto rowOf = [&](int row) {
+        const glm::ivec2 pixel = (layout.box.at + glm::ivec2(at.x, at.y + row)) / layout.raysAcross;
+        return opaqueDepth.data() + std::ptrdiff_t(pixel.y) * pictureWidth + pixel.x;
+    };
+    const auto pixels = static_cast<std::size_t>(size.x / layout.raysAcross);
     if (!opaqueDepth.empty())
+        for (int row = 0; row < size.y; row += layout.raysAcross)
+            nearestOpaque =
+                std::min(nearestOpaque, HWY_DYNAMIC_DISPATCH(NearestOf)(rowOf(row), pixels));
+    if (nearestOpaque < 1)
         for (int row = 0; row < size.y; ++row) {
-            const glm::ivec2 pixel =
-                (layout.box.at + glm::ivec2(at.x, at.y + row)) / layout.raysAcross;
-            const float* const from =
-                opaqueDepth.data() + std::ptrdiff_t(pixel.y) * pictureWidth + pixel.x;
             float* const to = opaque.data() + std::ptrdiff_t(row) * kTileStride;
-            const auto count = static_cast<std::size_t>(size.x / layout.raysAcross);
-            const float nearest = HWY_DYNAMIC_DISPATCH(TakeDepths)(from, count, to);
-            nearestOpaque = std::min(nearestOpaque, nearest);
-            if (layout.raysAcross > 1)
-                for (int x = 0; x < size.x; ++x) to[x] = from[x / layout.raysAcross];
+            for (int x = 0; x < size.x; ++x) to[x] = rowOf(row)[x / layout.raysAcross];
         }
     HWY_DYNAMIC_DISPATCH(FillRays)(layout, *this);
 }
@@ -108,6 +123,11 @@ bool TileRoom::isClosed() const {
             return false;
     }
     return true;
+}
+
+void interleaveRow(const float* sums, std::size_t plane, const float* factor, std::size_t width,
+                   float* to) {
+    HWY_DYNAMIC_DISPATCH(InterleaveRow)(sums, plane, factor, width, to);
 }
 
 }  // namespace render

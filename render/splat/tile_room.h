@@ -37,4 +37,8 @@ struct TileRoom {
     float nearestOpaque = 1;
 };
 
+// Four channels, `plane` floats apart, times a pixel's factor if there are any, into pixels.
+void interleaveRow(const float* sums, std::size_t plane, const float* factor, std::size_t width,
+                   float* to);
+
 }  // namespace render

@@ -1,11 +1,18 @@
 #include "render/splat/tile_splatter.h"
 
+#include <hwy/contrib/sort/vqsort.h>
+
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <numeric>
+#include <optional>
 #include <utility>
 
+#include "render/splat/depth_order.h"
+#include "render/splat/distances.h"
 #include "render/splat/splat_source.h"
+#include "render/splat/tile_chains.h"
 #include "render/splat/tile_kernels.h"
 #include "render/splat/tile_plane.h"
 #include "render/together.h"
@@ -13,50 +20,66 @@
 namespace render {
 namespace {
 
-// Sorted into tiles at once: more would not make it faster.
-constexpr std::uint64_t kAtOnce = 1 << 20;
 // Less is done before another thread has begun.
 constexpr std::size_t kSplatsWorthAThread = 1 << 11;
 
-}  // namespace
-
-// The splats that touch each tile, in the list's order: those of a part of the list, sorted by one
-// thread.
-class TileMemory::Bins {
- public:
-    void fill(const TileView& view, const SplatList& list, std::span<const TileSpan> spans,
-              std::size_t first, std::size_t last) {
-        bins_.fill(
-            view.count(), view.tiles.x, spans, first, last,
-            [&](std::size_t places) {
-                index_.resize(places);
-                tint_.resize(list.tint.empty() ? 0 : places);
-            },
-            [&](std::uint32_t to, std::size_t i) {
-                index_[to] = list.index[i];
-                if (!tint_.empty()) tint_[to] = list.tint[i];
-            });
-    }
-    bool holds(std::size_t tile) const { return bins_.count(tile) > 0; }
-    void sum(const TileView& view, std::size_t tile, TileRoom& room) const {
-        const std::uint32_t first = bins_.first(tile), count = bins_.count(tile);
-        const std::span<const float> tints(tint_);
-        sumTile(view, std::span(index_).subspan(first, count),
-                tints.empty() ? tints : tints.subspan(first, count), room);
-    }
-
- private:
-    TileBins bins_;
-    std::vector<std::uint32_t> index_;
-    std::vector<float> tint_;
+// A few splats that are looked at together, while they lie in the first-level cache.
+struct Batch {
+    static constexpr std::size_t kMost = 256;
+    std::array<std::uint32_t, kMost> index, key;
+    std::array<float, kMost> tint;
+    std::array<TileSpan, kMost> spans;
 };
+
+// The splats of one tile, in the order in which they are summed. What one thread makes it in.
+struct InTile {
+    std::vector<std::uint32_t> words, index;
+    std::vector<float> tint;
+    std::vector<std::uint64_t> keyed;
+    std::unique_ptr<hwy::Sorter> sorter;  // made once, for it begins with random numbers
+};
+
+// What a splat is in a tile: its index; its tint, where the plane has colours; and its key, where
+// the tile is to be put in order, beside a word that makes the entry whole.
+enum class Entry : std::size_t { Index = 1, Tinted = 2, Keyed = 4 };
+
+void takeApart(InTile& here) {
+    const std::size_t count = here.words.size() / 2;
+    here.index.resize(count);
+    here.tint.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        here.index[i] = here.words[2 * i];
+        here.tint[i] = std::bit_cast<float>(here.words[2 * i + 1]);
+    }
+}
+
+// The nearest first; of equally near ones the last of the list, as that is drawn from its end.
+void putInOrder(InTile& here) {
+    const std::size_t count = here.words.size() / 4;
+    here.keyed.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+        here.keyed[i] = std::uint64_t{here.words[4 * i + 2]} << 32 | i;
+    if (!here.sorter) here.sorter = std::make_unique<hwy::Sorter>();
+    (*here.sorter)(here.keyed.data(), count, hwy::SortDescending());
+    here.index.resize(count);
+    here.tint.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t* const from =
+            &here.words[4 * static_cast<std::uint32_t>(here.keyed[i])];
+        here.index[i] = from[0];
+        here.tint[i] = std::bit_cast<float>(from[1]);
+    }
+}
+
+}  // namespace
 
 struct TileMemory::Kept {
     std::vector<float> plane;
     SplatPoints points;
-    SplatList list;
-    std::vector<TileSpan> spans;  // of the list
-    std::vector<Bins> bins;
+    std::vector<SeenSplat> seen;  // of a mesh, of these points
+    // One a thread.
+    std::vector<TileChains> chains;
+    std::vector<InTile> inTile;
 };
 
 TileMemory::TileMemory() : kept(std::make_unique<Kept>()) {}
@@ -68,101 +91,181 @@ struct TileSum::Work {
     const Scene& scene;
     timeseries::Columns columns;
     TileView view;
-    SplatSource source;
+    // Of a list that is to be put in order here, as long as that is done in each tile alone.
+    std::optional<glm::dvec3> midEye;
+    std::optional<Distances> distances;
+    DepthKeys keys{};
+    DrawList ordered;  // where the tiles have no room for all
+    std::optional<SplatSource> source;
+    Entry entry;
     unsigned threads;
     std::uint64_t pairsAtOnce;
     TileMemory memory;
-    SplatPoints& points = memory.kept->points;
-    SplatList& list = memory.kept->list;
-    std::vector<TileSpan>& spans = memory.kept->spans;
-    std::vector<TileMemory::Bins>& bins = memory.kept->bins;
+    TileMemory::Kept& kept = *memory.kept;
     TilePlane plane;
 
     Work(const Scene& drawn, const DrawList& draw, const View& of, Channels channels,
-         std::size_t layer, std::span<const float> depth, unsigned shared, TileMemory kept,
+         std::size_t layer, std::span<const float> depth, unsigned shared, TileMemory before,
          std::uint64_t most)
         : scene(drawn),
           columns(columnsOf(scene)),
           view(scene, of, channels, layer),
-          source(scene, draw, channels, layer),
+          entry(channels == Channels::Weight ? Entry::Index : Entry::Tinted),
           threads(std::max(shared, 1u)),
           pairsAtOnce(most),
-          memory(kept.kept ? std::move(kept) : TileMemory()),
-          plane(view, depth, of.size.x, threads, memory.kept->plane, memory.kept->plane) {
-        bins.resize(threads);
-        points.point.clear();
-        points.layer.clear();
+          memory(before.kept ? std::move(before) : TileMemory()),
+          plane(view, depth, of.size.x, threads, kept.plane, kept.plane) {
+        kept.chains.resize(threads);
+        kept.inTile.resize(threads);
+        const auto* const later = std::get_if<SortWhenDrawn>(&draw);
+        if (!later || channels != Channels::Over) {
+            source.emplace(scene, draw, channels, layer);
+            return;
+        }
+        entry = Entry::Keyed;
+        midEye = later->midEye;
+        keys = depthKeysOf(scene, *midEye);
+        distances.emplace(scene, *midEye);
+        source.emplace(scene);
     }
 
+    bool ordersInTiles() const { return entry == Entry::Keyed; }
+    std::uint64_t next(std::uint64_t splats);
     void sum();
-    void look(std::size_t first, std::size_t last);
-    void sumPart(std::size_t first, std::size_t last, bool lastOfAll);
+    void look(std::size_t first, std::size_t count, Batch& batch);
+    template <Entry kEntry>
+    std::size_t bin(std::size_t first, std::size_t last, std::uint64_t pairs, TileChains& chains);
+    std::size_t binAll(std::size_t first, unsigned shared);
+    void sumTiles(std::span<const TileChains> chains, bool lastOfAll);
 };
 
-// Of these points: what of them is drawn, and where.
-void TileSum::Work::look(std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) list.index[i] = columns.gridIndex[points.point[i]];
-    if (!list.tint.empty())
+// What of these points is drawn, and where.
+void TileSum::Work::look(std::size_t first, std::size_t count, Batch& batch) {
+    const std::span point = std::span(kept.points.point).subspan(first, count);
+    const std::span layer = std::span(kept.points.layer).subspan(first, count);
+    for (std::size_t i = 0; i < count; ++i) batch.index[i] = columns.gridIndex[point[i]];
+    if (entry != Entry::Index)
         std::visit(
             [&](auto values) {
-                for (std::size_t i = first; i < last; ++i)
-                    list.tint[i] =
-                        tintPlace(view, points.layer[i], scene.layers[points.layer[i]].style,
-                                  static_cast<double>(values[points.point[i]]));
+                for (std::size_t i = 0; i < count; ++i)
+                    batch.tint[i] = tintPlace(view, layer[i], scene.layers[layer[i]].style,
+                                              static_cast<double>(values[point[i]]));
             },
             columns.values);
-    if (!scene.placed.isMesh()) return findTiles(view, list, first, last, spans);
-    const std::size_t count = last - first;
-    seeSplats(scene, view, std::span(list.index).subspan(first, count),
-              std::span(list.seen).subspan(first, count), std::span(spans).subspan(first, count));
-    std::iota(list.index.begin() + static_cast<std::ptrdiff_t>(first),
-              list.index.begin() + static_cast<std::ptrdiff_t>(last),
-              static_cast<std::uint32_t>(first));
+    const auto index = std::span(batch.index).first(count);
+    const auto spans = std::span(batch.spans).first(count);
+    if (entry == Entry::Keyed) {
+        std::array<double, Batch::kMost> away;
+        distances->find(index, std::span(away).first(count));
+        for (std::size_t i = 0; i < count; ++i) batch.key[i] = keys.of(std::max(away[i], 0.0));
+    }
+    if (!scene.placed.isMesh()) {
+        findTiles(view, index, spans);
+    } else {
+        seeSplats(scene, view, index, std::span(kept.seen).subspan(first, count), spans);
+        std::iota(index.begin(), index.end(), static_cast<std::uint32_t>(first));
+    }
 }
 
-void TileSum::Work::sumPart(std::size_t first, std::size_t last, bool lastOfAll) {
-    const std::size_t count = last - first;
-    const unsigned shared = threadsFor(count, kSplatsWorthAThread, threads);
+// Into the tiles that they touch, until there are more than so many pairs. Returns where it ended,
+// which is after the first batch at least.
+template <Entry kEntry>
+std::size_t TileSum::Work::bin(std::size_t first, std::size_t last, std::uint64_t pairs,
+                               TileChains& chains) {
+    Batch batch;
+    std::uint64_t put = 0;
+    while (first < last && put <= pairs) {
+        const std::size_t count = std::min(Batch::kMost, last - first);
+        look(first, count, batch);
+        for (std::size_t i = 0; i < count; ++i) {
+            std::array<std::uint32_t, static_cast<std::size_t>(kEntry)> words{batch.index[i]};
+            if constexpr (kEntry != Entry::Index)
+                words[1] = std::bit_cast<std::uint32_t>(batch.tint[i]);
+            if constexpr (kEntry == Entry::Keyed) words[2] = batch.key[i];
+            const TileSpan& span = batch.spans[i];
+            put += std::uint64_t{span.columns} * span.rows;
+            forEachTile(span, view.tiles.x, [&](std::uint32_t tile) { chains.put(tile, words); });
+        }
+        first += count;
+    }
+    return first;
+}
+
+// All of the points from `first` on for which there is room, by so many threads. Returns where they
+// end: where a thread had no room left, others' later points are done anew.
+std::size_t TileSum::Work::binAll(std::size_t first, unsigned shared) {
+    const std::size_t count = kept.points.point.size() - first;
+    std::vector<std::size_t> ends(shared);
+    const auto endOf = [&](unsigned k) { return first + count * (k + 1) / shared; };
     together(shared, [&](unsigned k) {
-        bins[k].fill(view, list, spans, first + count * k / shared,
-                     first + count * (k + 1) / shared);
+        kept.chains[k].clear(view.count(), TileSum::kPairs);
+        const std::size_t from = k > 0 ? endOf(k - 1) : first;
+        const auto into = [&](auto form) {
+            ends[k] =
+                bin<decltype(form)::value>(from, endOf(k), pairsAtOnce / shared, kept.chains[k]);
+        };
+        switch (entry) {
+            case Entry::Index:
+                return into(std::integral_constant<Entry, Entry::Index>());
+            case Entry::Tinted:
+                return into(std::integral_constant<Entry, Entry::Tinted>());
+            case Entry::Keyed:
+                return into(std::integral_constant<Entry, Entry::Keyed>());
+        }
     });
-    const std::span<const TileMemory::Bins> filled = std::span(bins).first(shared);
+    for (unsigned k = 0; k + 1 < shared; ++k) {
+        if (ends[k] == endOf(k)) continue;
+        for (unsigned later = k + 1; later < shared; ++later)
+            kept.chains[later].clear(view.count(), TileSum::kPairs);
+        return ends[k];
+    }
+    return ends.back();
+}
+
+void TileSum::Work::sumTiles(std::span<const TileChains> chains, bool lastOfAll) {
     plane.sum(
-        shared, lastOfAll,
+        static_cast<unsigned>(chains.size()), lastOfAll,
         [&](std::size_t tile) {
-            return std::ranges::any_of(filled, [&](const auto& some) { return some.holds(tile); });
+            return std::ranges::any_of(chains, [&](const auto& some) { return some.holds(tile); });
         },
-        [&](std::size_t tile, TileRoom& room) {
-            for (const TileMemory::Bins& some : filled) some.sum(view, tile, room);
+        [&](unsigned thread, std::size_t tile, TileRoom& room) {
+            InTile& here = kept.inTile[thread];
+            here.words.clear();
+            for (const TileChains& some : chains) some.append(tile, here.words);
+            if (entry == Entry::Index) return sumTile(view, here.words, {}, room);
+            entry == Entry::Tinted ? takeApart(here) : putInOrder(here);
+            sumTile(view, here.index, here.tint, room);
         });
 }
 
-// In parts of so many pairs of a splat and a tile that their number has a bound, however large
-// the splats are.
+// The points that are next. In parts of so many pairs of a splat and a tile that their number has a
+// bound, however large the splats are.
 void TileSum::Work::sum() {
-    const std::size_t count = points.point.size();
-    list.index.resize(count);
-    list.tint.resize(view.channels == Channels::Weight ? 0 : count);
-    spans.resize(count);
+    const std::size_t count = kept.points.point.size();
+    const unsigned shared = threadsFor(count, kSplatsWorthAThread, threads);
     if (scene.placed.isMesh()) {
-        list.seen.resize(std::max(list.seen.size(), count));
-        view.meshSplats = list.seen;
+        kept.seen.resize(std::max(kept.seen.size(), count));
+        view.meshSplats = kept.seen;
     }
-    inParts(count, threadsFor(count, kSplatsWorthAThread, threads),
-            [&](std::size_t first, std::size_t last) { look(first, last); });
-    std::size_t first = 0;
-    std::uint64_t pairs = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint64_t more = std::uint64_t{spans[i].columns} * spans[i].rows;
-        if (pairs > 0 && pairs + more > pairsAtOnce) {
-            sumPart(first, i, false);
-            first = i;
-            pairs = 0;
+    for (std::size_t first = 0;;) {
+        first = binAll(first, shared);
+        if (ordersInTiles() && first < count) {  // so before, all of them
+            ordered = order(scene, *midEye);
+            source.emplace(scene, ordered, view.channels, 0);
+            entry = Entry::Tinted;
+            kept.points.point.clear();
+            return;
         }
-        pairs += more;
+        sumTiles(std::span(kept.chains).first(shared), source->done() && first == count);
+        if (first == count) return;
     }
-    sumPart(first, count, source.done());
+}
+
+// Adds so many, or what is worth a call. Returns how many.
+std::uint64_t TileSum::Work::next(std::uint64_t splats) {
+    source->next(ordersInTiles() ? kAtOnce : std::clamp(splats, kLeast, kAtOnce), kept.points);
+    sum();
+    return kept.points.point.size();
 }
 
 TileSum::TileSum(const Scene& scene, const DrawList& list, const View& view, Channels channels,
@@ -171,7 +274,9 @@ TileSum::TileSum(const Scene& scene, const DrawList& list, const View& view, Cha
     : work_(new Work(scene, list, view, channels, layer, opaqueDepth, threads, std::move(memory),
                      pairsAtOnce)) {
     assert(canSum(scene, channels));
-    if (done()) work_->sum();  // nothing, which also is to be written
+    if (!done()) return;
+    work_->kept.points.point.clear();
+    work_->sum();  // nothing, which also is to be written
 }
 
 TileSum::TileSum(TileSum&&) noexcept = default;
@@ -184,17 +289,13 @@ bool TileSum::canSum(const PlacedPoints& placed, const Footprint& footprint) {
 
 std::uint64_t TileSum::add(std::uint64_t splats) {
     std::uint64_t added = 0;
-    while (!done() && added < splats) {
-        work_->source.next(std::clamp(splats - added, kLeast, kAtOnce), work_->points);
-        work_->sum();
-        added += work_->points.point.size();
-    }
+    while (!done() && added < splats) added += work_->next(splats - added);
     return added;
 }
 
-bool TileSum::done() const { return work_->source.done(); }
+bool TileSum::done() const { return work_->source->done(); }
 const PixelBox& TileSum::box() const { return work_->view.box; }
-std::vector<float>& TileSum::plane() { return work_->memory.kept->plane; }
+std::vector<float>& TileSum::plane() { return work_->kept.plane; }
 TileMemory TileSum::takeMemory() { return std::move(work_->memory); }
 
 std::vector<float> sumTiles(const Scene& scene, const DrawList& list, const View& view,

@@ -1,8 +1,10 @@
 #include "render/splat/tile_view.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 
@@ -79,6 +81,48 @@ void TileView::takeGrid(const Scene& scene) {
         clipHi[a] = static_cast<std::int32_t>(std::min(scene.clip.hi[at], kMost));
         clips = clips || scene.clip.lo[at] > 0 || scene.clip.hi[at] + 1.0 < size[a];
     }
+    takePlaces();
+}
+
+void TileView::takePlaces() {
+    evenlySpaced = true;
+    viewFromIndices = viewFromAxes;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto count = static_cast<std::size_t>(size[a]);
+        const double first = position[a][0], span = position[a][count - 1] - first;
+        const double step = count > 1 ? span / (size[a] - 1) : 0;
+        for (std::size_t i = 0; i < count; ++i)
+            evenlySpaced =
+                evenlySpaced && std::abs(position[a][i] - first - step * static_cast<double>(i)) <=
+                                    1e-13 * std::abs(span);
+        for (std::size_t k = 0; k < 3; ++k) {
+            viewFromIndices[a][k] = step * viewFromAxes[a][k];
+            viewFromIndices[3][k] += first * viewFromAxes[a][k];
+        }
+    }
+    const auto bits = [&](std::size_t a) {
+        return std::bit_width(static_cast<std::uint32_t>(size[a]) - 1);
+    };
+    yAt = bits(0);
+    zAt = yAt + bits(1);
+    packs = zAt + bits(2) <= 32 && zAt < 32;
+}
+
+// As crossForm() of splat_forms-inl.h has it, of c = axis + x X + y Y: c x X and c x Y change with
+// one of them alone.
+void TileView::takeEvenForm(const PointsView& seen) {
+    const glm::dvec3 a(semiAxes[0], semiAxes[1], semiAxes[2]);
+    const PixelRays& rays = seen.rays;
+    const glm::dvec3 axisRay = rays.axis / a, x = rays.perPixelX / a, y = rays.perPixelY / a;
+    const glm::dvec3 alongX = glm::cross(axisRay, x), alongY = glm::cross(axisRay, y),
+                     change = glm::cross(x, y);
+    const auto of = [](const glm::dvec3& u, const glm::dvec3& v) {
+        return static_cast<float>(glm::dot(u, v));
+    };
+    nxx = {of(alongX, alongX), -2 * of(alongX, change), of(change, change)};
+    nyy = {of(alongY, alongY), 2 * of(alongY, change), of(change, change)};
+    nxy = {2 * of(alongX, alongY), 2 * of(alongX, change), -2 * of(alongY, change),
+           -2 * of(change, change)};
 }
 
 void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const View& view) {
@@ -104,6 +148,7 @@ void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const V
            (placed.cubes() ||
             (sameCells(placed) && farthestDepth(placed, view) * seen.smallestRadius < shortest));
     spheres = even && placed.cubes();
+    if (even) takeEvenForm(seen);
     double mass = perLength;
     if (even) mass /= radius * radius * radius;
     if (pointSide > 0)

@@ -23,7 +23,15 @@ struct TileView : TileLayout {
     std::array<double, 3> size;
     std::array<const double*, 3> position;
     std::array<std::vector<float>, 3> roughPosition, width;
-    std::array<std::array<double, 3>, 4> viewFromAxes;  // columns
+    using Columns = std::array<std::array<double, 3>, 4>;
+    Columns viewFromAxes;
+    // Where points are evenly spaced along each axis, their indices take the place of positions.
+    bool evenlySpaced = false;
+    Columns viewFromIndices;
+    // Where they fit, a point's indices along the axes stand in one word, x lowest, from these bits
+    // on; else it has its linear index.
+    bool packs = false;
+    int yAt, zAt;
     std::array<std::int32_t, 3> clipLo, clipHi;
     bool clips;
     // Semi-axes are `kernel` times a cell's sides, at least `least` a unit of depth.
@@ -31,6 +39,10 @@ struct TileView : TileLayout {
     // All splats are even spheres, which are seen as if `reach` times as large.
     bool spheres = false;
     float reach;
+    // n of an even splat, but for its depth^2: polynomials of its centre's distance from the view
+    // axis. xx: y^0 to y^2; yy: x^0 to x^2; xy: 1, x, y and x y.
+    std::array<float, 3> nxx, nyy;
+    std::array<float, 4> nxy;
     // Of an even splat, or of one whose cell's volume is 1; for Weight, of as many points as it
     // stands for.
     float weight;
@@ -47,6 +59,8 @@ struct TileView : TileLayout {
              std::size_t layer, int raysAcross);
     void takeMesh(const PlacedPoints& placed);
     void takeGrid(const Scene& scene);
+    void takePlaces();
+    void takeEvenForm(const PointsView& seen);
     void takeFootprint(const Scene& scene, const PointsView& seen, const View& view);
 };
 

@@ -64,7 +64,7 @@ void glOrder(benchmark::State& state) {
         glFinish();
     };
     bench::alternate(
-        state, [&] { with(SortedOnGpu{eye}); }, [&] { with(inDepth(world.scene, eye)); });
+        state, [&] { with(SortWhenDrawn{eye}); }, [&] { with(inDepth(world.scene, eye)); });
     state.SetLabel(context.renderer());
 }
 BENCHMARK(glOrder)

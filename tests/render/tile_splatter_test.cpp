@@ -8,6 +8,8 @@
 #include "render/reference/cpu_splatter.h"
 #include "render/reference/exact_order.h"
 #include "render/reference/image_compare.h"
+#include "render/splat/tile_kernels.h"
+#include "tests/support/meshes.h"
 #include "tests/support/noise_plane.h"
 #include "tests/support/vector_targets.h"
 
@@ -57,6 +59,124 @@ TEST_F(TileSplatter, EveryKindOfVectorsSumsTheTruth) {
                 EXPECT_LE(compareScalars(summed, truth.planes[0]).relativeL2, 1e-5);
             }
     });
+}
+
+// Each tile's splats put in order alone, or all of them before: not a bit is another.
+class OrderInTiles : public TileSplatter {
+ protected:
+    const glm::dvec3 eye_ = pixelRays(view_).eye;
+    void SetUp() override { scene_.order = Order::BackToFront; }
+    std::vector<float> summed(const Scene& scene, const DrawList& list, unsigned threads = 2,
+                              std::uint64_t pairs = TileSum::kPairs) const {
+        TileSum sum(scene, list, view_, Channels::Over, 0, opaque_, threads, {}, pairs);
+        std::uint64_t added = 0;
+        while (!sum.done()) added += sum.add(1);
+        std::uint64_t all = 0;
+        for (const Layer& layer : scene.layers) all += splatCount(layer, scene.stride);
+        const auto* const sorted = std::get_if<Sorted>(&list);  // without those clipped
+        EXPECT_EQ(added, sorted ? sorted->point.size() : all);
+        return std::move(sum.plane());
+    }
+    void expectTheSame(const Scene& scene) const {
+        const auto before = summed(scene, order(scene, eye_));
+        EXPECT_GT(*std::ranges::max_element(before), 0.1);
+        for (const unsigned threads : {1u, 2u, 5u})
+            EXPECT_EQ(summed(scene, SortWhenDrawn{eye_}, threads), before) << threads;
+    }
+};
+
+TEST_F(OrderInTiles, IsTheListsOfAllLayers) {
+    expectTheSame(scene_);
+    for (const char* range : {"0.4:0.5", "0.45:1"})
+        scene_.layers.push_back(
+            {step_.select(RangeSet::parse(range)),
+             {Constant{glm::dvec3(0.1, 0.2, range[3] == ':' ? 0.9 : 0.3)}, 0.7}});
+    expectTheSame(scene_);
+    scene_.stride = 4;
+    expectTheSame(scene_);
+}
+
+TEST_F(OrderInTiles, IsTheListsOfEqualDistances) {
+    // All of a plane that is seen along its normal, at a few distances from an eye far away.
+    const auto step = tests::noise(tests::cube(16));
+    const PlacedPoints placed(step.grid());
+    const Scene scene{.step = step,
+                      .placed = placed,
+                      .layers = {{step.select(RangeSet::everything()), {ByValue{{}, 0, 1}, 0.3}}},
+                      .footprint = {},
+                      .order = Order::BackToFront,
+                      .clip = {}};
+    const glm::dvec3 far(1e9, 0, 0);
+    EXPECT_EQ(summed(scene, SortWhenDrawn{far}), summed(scene, order(scene, far)));
+}
+
+TEST_F(OrderInTiles, IsTheListsWhereClippedHiddenOrClosed) {
+    scene_.clip.lo = {10, 0, 5};
+    for (std::size_t i = 0; i < opaque_.size(); i += 3)
+        opaque_[i] = static_cast<float>(windowDepth(view_, 3));
+    expectTheSame(scene_);
+    scene_.layers[0].style.opacity = 1;
+    expectTheSame(scene_);
+}
+
+TEST_F(OrderInTiles, IsTheListsOfAMesh) {
+    const auto grid = tests::curvilinear({20, 20, 20}, [](double i, double j, double k) {
+        return glm::dvec3(i + 0.02 * j * k, j, k - 0.01 * i * i);
+    });
+    const auto step = tests::noise(grid);
+    const PlacedPoints placed(step.grid());
+    expectTheSame({.step = step,
+                   .placed = placed,
+                   .layers = {{step.select(RangeSet::parse("0.2:0.9")), {ByValue{{}, 0, 1}, 0.3}}},
+                   .footprint = {},
+                   .order = Order::BackToFront,
+                   .clip = {}});
+}
+
+// A list of all of them then is made.
+TEST_F(OrderInTiles, IsTheListsWhereTilesHaveNoRoomForAll) {
+    scene_.footprint.size = 4;
+    const auto before = summed(scene_, order(scene_, eye_));
+    for (const std::uint64_t pairs : {1000u, 100000u})
+        EXPECT_EQ(summed(scene_, SortWhenDrawn{eye_}, 2, pairs), before) << pairs;
+}
+
+TEST_F(OrderInTiles, OfNothingIsNothing) {
+    scene_.layers[0].runs.clear();
+    const auto plane = summed(scene_, SortWhenDrawn{eye_});
+    EXPECT_EQ(std::ranges::count(plane, 0.0f), std::ssize(plane));
+}
+
+// What grids of a thousand million points have, whose indices along three axes fill no word, and
+// what those have whose points are not evenly spaced, told apart here by nothing but that.
+TEST_F(TileSplatter, PointsAreSeenAlikeHoweverTheyAreToldWhereTheyLie) {
+    const TileView packed(scene_, view_, Channels::Weight, 0);
+    ASSERT_TRUE(packed.packs && packed.evenlySpaced && packed.count() > 3);
+    TileView linear = packed, byTables = packed;
+    linear.packs = false;
+    byTables.evenlySpaced = false;
+    const auto summed = [&](const TileView& view) {
+        const auto all = std::span(step_.columns().gridIndex).first(1001);  // no whole vectors
+        std::vector<std::uint32_t> points(all.begin(), all.end());
+        std::vector<TileSpan> spans(points.size());
+        findTiles(view, points, spans);
+        EXPECT_EQ(std::ranges::equal(points, all), !view.packs);
+        TileRoom room(view);
+        std::vector<float> sums;
+        for (std::size_t tile = 0; tile < view.count(); ++tile) {
+            room.enter(view, tile, {}, view_.size.x);
+            std::ranges::fill(room.sums, 0.0f);
+            sumTile(view, points, {}, room);
+            sums.insert(sums.end(), room.sums.begin(), room.sums.end());
+        }
+        return sums;
+    };
+    const auto sums = summed(packed);
+    EXPECT_GT(*std::ranges::max_element(sums), 0);
+    EXPECT_EQ(summed(linear), sums);
+    EXPECT_LE(
+        compareScalars(summed(byTables), std::vector<double>(sums.begin(), sums.end())).relativeL2,
+        1e-6);
 }
 
 }  // namespace
