@@ -25,7 +25,7 @@ constexpr std::size_t kSplatsWorthAThread = 1 << 11;
 
 // A few splats that are looked at together, while they lie in the first-level cache.
 struct Batch {
-    static constexpr std::size_t kMost = 256;
+    static constexpr std::size_t kMost = 512;
     std::array<std::uint32_t, kMost> index, key;
     std::array<float, kMost> tint;
     std::array<TileSpan, kMost> spans;
@@ -168,13 +168,13 @@ void TileSum::Work::look(std::size_t first, std::size_t count, Batch& batch) {
 }
 
 // Into the tiles that they touch, until there are more than so many pairs. Returns where it ended,
-// which is after the first batch at least.
+// which is after the first at least.
 template <Entry kEntry>
 std::size_t TileSum::Work::bin(std::size_t first, std::size_t last, std::uint64_t pairs,
                                TileChains& chains) {
     Batch batch;
     std::uint64_t put = 0;
-    while (first < last && put <= pairs) {
+    while (first < last) {
         const std::size_t count = std::min(Batch::kMost, last - first);
         look(first, count, batch);
         for (std::size_t i = 0; i < count; ++i) {
@@ -185,6 +185,7 @@ std::size_t TileSum::Work::bin(std::size_t first, std::size_t last, std::uint64_
             const TileSpan& span = batch.spans[i];
             put += std::uint64_t{span.columns} * span.rows;
             forEachTile(span, view.tiles.x, [&](std::uint32_t tile) { chains.put(tile, words); });
+            if (put > pairs) return first + i + 1;
         }
         first += count;
     }
@@ -249,14 +250,15 @@ void TileSum::Work::sum() {
     }
     for (std::size_t first = 0;;) {
         first = binAll(first, shared);
-        if (ordersInTiles() && first < count) {  // so before, all of them
+        const bool isAll = first == count && source->done();
+        if (ordersInTiles() && !isAll) {  // before, then
             ordered = order(scene, *midEye);
             source.emplace(scene, ordered, view.channels, 0);
             entry = Entry::Tinted;
             kept.points.point.clear();
             return;
         }
-        sumTiles(std::span(kept.chains).first(shared), source->done() && first == count);
+        sumTiles(std::span(kept.chains).first(shared), isAll);
         if (first == count) return;
     }
 }

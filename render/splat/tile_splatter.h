@@ -37,13 +37,12 @@ class TileSum {
  public:
     static constexpr std::uint64_t kPairs = 1 << 23;
     // Sorted into tiles at once: more would not make it faster. So many each tile puts in order by
-    // itself: SortWhenDrawn.
+    // itself, where that is asked for (SortWhenDrawn); of more a list is made before.
     static constexpr std::uint64_t kAtOnce = 1 << 20;
     // `opaqueDepth` is the depth [0, 1] of the opaque scene, a pixel each, row 0 at the bottom, or
     // empty: a splat whose centre lies behind it is not drawn there. `layer` is the plane's, where
-    // it has one; `list` is the scene's: SortWhenDrawn of kAtOnce splats at most. All of them must
-    // outlive this. REQUIRES: canSum(scene, channels). `memory` is what a plane before was made
-    // of, if any: pages that are new cost much.
+    // it has one; `list` is the scene's. All of them must outlive this. REQUIRES: canSum(scene,
+    // channels). `memory` is what a plane before was made of, if any: pages that are new cost much.
     TileSum(const Scene& scene, const DrawList& list, const View& view, Channels channels,
             std::size_t layer, std::span<const float> opaqueDepth,
             unsigned threads = sharingThreads(), TileMemory memory = {},

@@ -6,12 +6,13 @@
     tests/bench/results.py --page       writes the page from what was last measured
 
 What a part measured stays in build/results, with its commit, time and load. On a quiet machine only:
-what else runs is in the figures. The parts: index stages draw cells foretold meshes store vtk window headset.
+what else runs is in the figures. The parts: index stages draw former cells foretold meshes store vtk window headset.
 """
 import datetime
 import json
 import os
 import re
+import statistics
 import subprocess
 import sys
 
@@ -31,7 +32,11 @@ FILTERS = {
     "vtk": ["--benchmark_filter=^vtk"],
     "store": ["--benchmark_filter=^store"],
 }
-PARTS = [*FILTERS, "window", "headset"]
+PARTS = [*FILTERS, "former", "window", "headset"]
+# The last commit before there were tiles: what speed was asked for beside it.
+FORMER = "533f11b"
+FORMER_FRAMES = [("BM_DrawUnordered/1000000/8", "1,000,000 splats of 8 px, one colour", 10), ("BM_DrawOrdered/1000000/8", "1,000,000 splats of 8 px, by value, back to front", 14),
+                 ("BM_DrawUnordered/100000/8", "100,000 splats of 8 px, one colour", 12), ("BM_DrawOrdered/100000/8", "100,000 splats of 8 px, by value, back to front", 14)]
 
 
 def shell(command, **options):
@@ -48,11 +53,30 @@ def build():
           "build release isochron_bench ui_bench")
 
 
+def former():
+    """Whole frames of that commit and of this one by turns, a process each: of every pair both times and their ratio."""
+    there = ROOT / "build/former"
+    if not there.exists():
+        shell(f"git worktree prune; git worktree add --detach {there} {FORMER}")
+    shell(f"cd {there}; source .ci/setup.sh; configure release -DISOCHRON_BENCH=ON; build release isochron_bench")
+    names = "|".join(name for name, *_ in FORMER_FRAMES)
+    figures = {name: [] for name, *_ in FORMER_FRAMES}
+    for _ in range(7):
+        pair = [{re.sub("/(process_time|real_time)", "", f["run_name"]): 1e3 * seconds(f) for f in json.loads(said(
+                    f"{bench} '--benchmark_filter=^({names})/' --benchmark_min_time=0.3 --benchmark_format=json 2>/dev/null"))["benchmarks"]}
+                for bench in (BENCH, there / "build/release/tests/bench/isochron_bench")]
+        for name in figures:
+            figures[name].append([now[name] for now in pair])
+    return figures
+
+
 def measure(part):
     about = {"commit": commit("tests/bench/RESULTS.md", "tests/bench/NOTES.md"), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0], "machine": processor()}
     print(f"{part} ...", file=sys.stderr)
     if part == "window":
         figures = said("build/release/tests/ui/ui_bench")
+    elif part == "former":
+        figures = former()
     elif part == "headset":
         figures = said("tests/xr/monado_root.sh make && tests/xr/monado_root.sh bench")
     else:
@@ -479,9 +503,20 @@ def headset_page(part):
             "frame; then frames that came and periods that were missed.\n\n" + tables.strip() + "\n")
 
 
+def former_page(part):
+    rows = []
+    for name, what, asked in FORMER_FRAMES:
+        pairs = part.figures[name]
+        ratio = statistics.median(before / now for now, before in pairs)
+        rows.append([what, *(time(1e-3 * statistics.median(side)) for side in zip(*pairs)), digits(ratio)])
+        target(f"a frame of {what}: at {FORMER} / now", ratio, asked, at_least=True)
+    return (f"A whole frame of 1024 x 1024 until `glFinish`, resolve included, as it is now and at {FORMER}, the last commit before there were tiles: its own\n"
+            "benchmarks, built and run by turns with these, seven times.\n\n" + table(["", "now", f"at {FORMER}", "ratio"], rows))
+
+
 def page():
     sections = [("index", "The index", index_page), ("stages", "From a file to a picture", stages_page),
-                ("draw", "Drawing", draw_page), ("cells", "Cells", cells_page), ("foretold", "A frame foretold", foretold_page), ("store", "Sorted steps on disk", store_page), ("meshes", "Curvilinear grids", meshes_page), ("vtk", "Beside VTK", vtk_page), ("window", "The window", window_page),
+                ("draw", "Drawing", draw_page), ("former", "Beside the program before tiles", former_page), ("cells", "Cells", cells_page), ("foretold", "A frame foretold", foretold_page), ("store", "Sorted steps on disk", store_page), ("meshes", "Curvilinear grids", meshes_page), ("vtk", "Beside VTK", vtk_page), ("window", "The window", window_page),
                 ("headset", "In a headset", headset_page)]
     body, driver = "", ""
     for name, title, write in sections:
