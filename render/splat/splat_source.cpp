@@ -1,7 +1,7 @@
 #include "render/splat/splat_source.h"
 
 #include <algorithm>
-#include <ranges>
+#include <numeric>
 
 namespace render {
 
@@ -48,10 +48,10 @@ void SplatSource::nextOfRuns(std::uint64_t atMost, SplatPoints& points) {
         timeseries::Run part{whole.first + passed_, whole.count - passed_};
         part.count = std::min(part.count, (atMost - points.point.size()) * stride);
         if (stride == 1) {
-            const auto first = static_cast<std::uint32_t>(part.first);
-            const auto all =
-                std::views::iota(first, first + static_cast<std::uint32_t>(part.count));
-            points.point.insert(points.point.end(), all.begin(), all.end());
+            const auto before = static_cast<std::ptrdiff_t>(points.point.size());
+            points.point.resize(points.point.size() + part.count);
+            std::iota(points.point.begin() + before, points.point.end(),
+                      static_cast<std::uint32_t>(part.first));
         } else {
             forEachInSubset(part, stride, [&](std::uint64_t point) {
                 points.point.push_back(static_cast<std::uint32_t>(point));
