@@ -63,8 +63,8 @@ void DepthOrder::begin(const Scene& scene, const glm::dvec3& midEye) {
     source_.emplace(scene);
     distances_.emplace(scene, midEye);
     keys_ = depthKeysOf(scene, midEye);
-    all_ = count_ = passed_ = 0;
-    for (const Layer& layer : scene.layers) all_ += splatCount(layer, scene.stride);
+    all_ = splatCount(scene);
+    count_ = passed_ = 0;
     // Room alone: it is written slice by slice.
     splats_.reserve(all_);
     byLower_.reserve(all_);

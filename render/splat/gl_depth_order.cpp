@@ -62,12 +62,6 @@ std::uint64_t listed(std::span<const Piece> pieces) {
     return sum;
 }
 
-std::uint64_t drawnOf(const Scene& scene) {
-    std::uint64_t sum = 0;
-    for (const Layer& layer : scene.layers) sum += splatCount(layer, scene.stride);
-    return sum;
-}
-
 KeysBlock keysBlock(const Scene& scene, const glm::dvec3& midEye) {
     const DepthKeys keys = depthKeysOf(scene, midEye);
     const double away = glm::length(midEye), s = std::max(away, keys.radius);
@@ -96,7 +90,7 @@ bool GlDepthOrder::fits(const Scene& scene, const GlStep& step) const {
 bool GlDepthOrder::fits(std::uint64_t points, const Scene& scene, const GlStep& step) const {
     if (points == 0) return true;
     return points <= GlRadixSort::kMost &&
-           std::max({points * GlRadixSort::kEntryBytes, drawnOf(scene) * sizeof(SortedPoint),
+           std::max({points * GlRadixSort::kEntryBytes, splatCount(scene) * sizeof(SortedPoint),
                      step.gridIndex().bytes()}) <= most_;
 }
 
@@ -166,7 +160,7 @@ void GlDepthOrder::sort(std::uint64_t drawn, const GlStep& step) {
 GlDepthOrder::List GlDepthOrder::ordered(const Scene& scene, const glm::dvec3& midEye,
                                          const GlStep& step) {
     const std::vector<Piece> pieces = piecesOfRuns(scene);
-    const std::uint64_t count = listed(pieces), drawn = drawnOf(scene);
+    const std::uint64_t count = listed(pieces), drawn = splatCount(scene);
     if (!fits(count, scene, step)) throw std::runtime_error("more points than shaders bind here");
     const std::uint64_t bytes = drawn * sizeof(SortedPoint);
     if (!list_ || list_.use_count() > 1 || list_->bytes() < bytes) {

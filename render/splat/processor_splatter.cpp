@@ -113,13 +113,6 @@ class BothPlanes final : public PlaneSum {
     Targets& targets_;
 };
 
-// Of all layers' points, those clipped included.
-std::uint64_t allSplats(const Scene& scene) {
-    std::uint64_t count = 0;
-    for (const Layer& layer : scene.layers) count += splatCount(layer, scene.stride);
-    return count;
-}
-
 class ProcessorFrame final : public SplatFrame {
  public:
     ProcessorFrame(const Scene& scene, DrawList list, ProcessorSplatter::Memory& memory)
@@ -132,7 +125,7 @@ class ProcessorFrame final : public SplatFrame {
         if (points_) return splatsOfBoth(channels, layer);
         if (scene_.cells) return cellCount(scene_, channels, layer);
         if (const auto* sorted = std::get_if<Sorted>(&list_)) return sorted->point.size();
-        if (channels == Channels::Over) return allSplats(scene_);
+        if (channels == Channels::Over) return splatCount(scene_);
         return splatCount(scene_.layers[layer], scene_.stride);
     }
     std::unique_ptr<PlaneSum> begin(const View& view, Channels channels, std::size_t layer,
@@ -187,7 +180,7 @@ class ProcessorFrame final : public SplatFrame {
 
 bool ProcessorSplatter::sortsWhenDrawn(const Scene& scene) {
     return scene.order != Order::None && !scene.cells && TileSum::canSum(scene, Channels::Over) &&
-           allSplats(scene) <= TileSum::kAtOnce;
+           splatCount(scene) <= TileSum::kAtOnce;
 }
 
 std::unique_ptr<SplatFrame> ProcessorSplatter::prepare(const Scene& scene, DrawList list,

@@ -5,6 +5,12 @@
 
 namespace render {
 
+std::uint64_t splatCount(const Scene& scene) {
+    std::uint64_t count = 0;
+    for (const Layer& layer : scene.layers) count += splatCount(layer, scene.stride);
+    return count;
+}
+
 SplatSource::SplatSource(const Scene& scene)
     : scene_(scene), sorted_(nullptr), layer_(0), last_(scene.layers.size()) {
     passEnds();

@@ -13,6 +13,9 @@ struct SplatPoints {
     std::vector<std::uint8_t> layer;
 };
 
+// How many there are, of all layers, those clipped included.
+std::uint64_t splatCount(const Scene& scene);
+
 class SplatSource {
  public:
     // All layers' runs. Scene and list must outlive this.

@@ -67,15 +67,22 @@ class OrderInTiles : public TileSplatter {
  protected:
     const glm::dvec3 eye_ = pixelRays(view_).eye;
     void SetUp() override { scene_.order = Order::BackToFront; }
+    static Scene ordered(const timeseries::SortedStep& step, const PlacedPoints& placed,
+                         const RangeSet& ranges = RangeSet::everything()) {
+        return {.step = step,
+                .placed = placed,
+                .layers = {{step.select(ranges), {ByValue{{}, 0, 1}, 0.3}}},
+                .footprint = {},
+                .order = Order::BackToFront,
+                .clip = {}};
+    }
     std::vector<float> summed(const Scene& scene, const DrawList& list, unsigned threads = 2,
                               std::uint64_t pairs = TileSum::kPairs) const {
         TileSum sum(scene, list, view_, Channels::Over, 0, opaque_, threads, {}, pairs);
         std::uint64_t added = 0;
         while (!sum.done()) added += sum.add(1);
-        std::uint64_t all = 0;
-        for (const Layer& layer : scene.layers) all += splatCount(layer, scene.stride);
         const auto* const sorted = std::get_if<Sorted>(&list);  // without those clipped
-        EXPECT_EQ(added, sorted ? sorted->point.size() : all);
+        EXPECT_EQ(added, sorted ? sorted->point.size() : splatCount(scene));
         return std::move(sum.plane());
     }
     void expectTheSame(const Scene& scene) const {
@@ -101,12 +108,7 @@ TEST_F(OrderInTiles, IsTheListsOfEqualDistances) {
     // All of a plane that is seen along its normal, at a few distances from an eye far away.
     const auto step = tests::noise(tests::cube(16));
     const PlacedPoints placed(step.grid());
-    const Scene scene{.step = step,
-                      .placed = placed,
-                      .layers = {{step.select(RangeSet::everything()), {ByValue{{}, 0, 1}, 0.3}}},
-                      .footprint = {},
-                      .order = Order::BackToFront,
-                      .clip = {}};
+    const Scene scene = ordered(step, placed);
     const glm::dvec3 far(1e9, 0, 0);
     EXPECT_EQ(summed(scene, SortWhenDrawn{far}), summed(scene, order(scene, far)));
 }
@@ -126,12 +128,7 @@ TEST_F(OrderInTiles, IsTheListsOfAMesh) {
     });
     const auto step = tests::noise(grid);
     const PlacedPoints placed(step.grid());
-    expectTheSame({.step = step,
-                   .placed = placed,
-                   .layers = {{step.select(RangeSet::parse("0.2:0.9")), {ByValue{{}, 0, 1}, 0.3}}},
-                   .footprint = {},
-                   .order = Order::BackToFront,
-                   .clip = {}});
+    expectTheSame(ordered(step, placed, RangeSet::parse("0.2:0.9")));
 }
 
 // A list of all of them then is made.
@@ -146,12 +143,7 @@ TEST_F(OrderInTiles, IsTheListsOfMoreThanAreSortedAtOnce) {
     const auto step = tests::noise(tests::cube(102));
     ASSERT_GT(step.size(), TileSum::kAtOnce);
     const PlacedPoints placed(step.grid());
-    const Scene scene{.step = step,
-                      .placed = placed,
-                      .layers = {{step.select(RangeSet::everything()), {ByValue{{}, 0, 1}, 0.3}}},
-                      .footprint = {},
-                      .order = Order::BackToFront,
-                      .clip = {}};
+    const Scene scene = ordered(step, placed);
     EXPECT_EQ(summed(scene, SortWhenDrawn{eye_}), summed(scene, order(scene, eye_)));
 }
 
