@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <exception>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -22,26 +21,12 @@ inline unsigned sharingThreads() {
                       limit > 0 ? std::min(limit, most) : most);
 }
 
-// work(k) for every k below `threads`, each on a thread. REQUIRES: it does not throw.
-inline void together(unsigned threads, const std::function<void(unsigned)>& work) {
-    std::vector<std::jthread> others;
-    for (unsigned k = 1; k < threads; ++k) others.emplace_back(work, k);
-    work(0);
-}
+// work(k) for every k below `threads`, at once, each on a thread. Those beside the caller's are its
+// own and are kept for its next call. REQUIRES: it does not throw.
+void together(unsigned threads, const std::function<void(unsigned)>& work);
 
 // together() for work that may throw: what one thread threw, if any, comes when all have ended.
-inline void sharing(unsigned threads, const std::function<void(unsigned)>& work) {
-    std::vector<std::exception_ptr> failures(threads);
-    together(threads, [&](unsigned k) {
-        try {
-            work(k);
-        } catch (...) {
-            failures[k] = std::current_exception();
-        }
-    });
-    for (const std::exception_ptr& failure : failures)
-        if (failure) std::rethrow_exception(failure);
-}
+void sharing(unsigned threads, const std::function<void(unsigned)>& work);
 
 // Of those, as many as have so many things to do.
 inline unsigned threadsFor(std::size_t count, std::size_t worthAThread,

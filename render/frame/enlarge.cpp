@@ -23,7 +23,7 @@ Between between(int pixel, int across) {
 }  // namespace
 
 void enlarge(const MemoryTargets::Plane& coarse, int across, const PixelBox& part,
-             std::vector<float>& pixels) {
+             PlanePixels& pixels) {
     const std::size_t floats = floatsPerPixel(coarse.channels);
     const PixelBox& known = coarse.part;
     // A row of coarse pixels with one of nothing, or more, on either side.

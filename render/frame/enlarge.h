@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "render/model/covered.h"
 #include "render/splat/memory_targets.h"
@@ -14,6 +13,6 @@ namespace render {
 
 // The picture's pixels in `part`, of a plane whose pixels have so many of them across.
 void enlarge(const MemoryTargets::Plane& coarse, int across, const PixelBox& part,
-             std::vector<float>& pixels);
+             PlanePixels& pixels);
 
 }  // namespace render

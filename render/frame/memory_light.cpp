@@ -110,10 +110,15 @@ void MemoryLight::drawDepth(const FlatMesh& behind, std::span<const Placard>, co
                             Targets& targets) {
     auto& depth = static_cast<MemoryTargets&>(targets).depth();
     const FlatRaster raster(behind, *font_, view.size);
-    depth.clear();
-    if (raster.empty()) return;
-    depth.resize(static_cast<std::size_t>(view.size.x) * static_cast<std::size_t>(view.size.y), 1);
-    raster.drawDepth({view.size, 0, view.size.y, depth.data()});
+    if (raster.empty()) return depth.clear();
+    const auto width = static_cast<std::size_t>(view.size.x);
+    depth.resize(width * static_cast<std::size_t>(view.size.y));
+    byRows(view.size.y, [&](unsigned, int first, int count) {
+        const std::span rows = std::span(depth).subspan(static_cast<std::size_t>(first) * width,
+                                                        static_cast<std::size_t>(count) * width);
+        std::ranges::fill(rows, 1.0f);
+        raster.drawDepth({view.size, first, count, rows.data()});
+    });
 }
 
 void MemoryLight::enlarge(const Scene& scene, const View& view, int across, Targets& from,

@@ -24,7 +24,7 @@ class MemoryLight final : public LightPass {
 
  private:
     const Font* font_ = nullptr;
-    std::vector<float> enlarged_;
+    PlanePixels enlarged_;
     std::vector<std::vector<float>> rooms_;  // for some rows, one a thread
 };
 

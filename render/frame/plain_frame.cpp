@@ -14,10 +14,10 @@ namespace {
 std::vector<float> enlarged(std::vector<float> depth, const View& planes, const View& view,
                             int across) {
     if (across == 1) return depth;
-    std::vector<float> pixels;
-    enlarge({Channels::Weight, {{0, 0}, planes.size}, std::move(depth)}, across,
+    PlanePixels pixels;
+    enlarge({Channels::Weight, {{0, 0}, planes.size}, {depth.begin(), depth.end()}}, across,
             {{0, 0}, view.size}, pixels);
-    return pixels;
+    return {pixels.begin(), pixels.end()};
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ class Plane final : public PlaneSum {
                 {sorted_->layer.begin() + from, sorted_->layer.begin() + to}};
     }
     void write() {
-        std::vector<float> pixels(sums_.planes[0].begin(), sums_.planes[0].end());
+        PlanePixels pixels(sums_.planes[0].begin(), sums_.planes[0].end());
         targets_.putPlane(plane_, channels_, {{0, 0}, view_.size}, pixels);
     }
 

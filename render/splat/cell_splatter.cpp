@@ -71,7 +71,7 @@ void CellMemory::Seen::look(const Scene& scene, const CellView& view, const Cell
 }
 
 struct CellMemory::Kept {
-    std::vector<float> plane, rays;
+    PlanePixels plane, rays;
     std::vector<Seen> seen;  // one a thread
 };
 
@@ -161,12 +161,12 @@ std::uint64_t CellSum::add(std::uint64_t cells) {
 
 bool CellSum::done() const { return work_->done(); }
 const PixelBox& CellSum::box() const { return work_->view.pixels; }
-std::vector<float>& CellSum::plane() { return work_->memory.kept->plane; }
+PlanePixels& CellSum::plane() { return work_->memory.kept->plane; }
 
 CellMemory CellSum::takeMemory() {
     constexpr std::size_t kMostKept = std::size_t{64} << 20;
-    std::vector<float>& rays = work_->memory.kept->rays;
-    if (rays.size() * sizeof(float) > kMostKept) std::vector<float>().swap(rays);
+    PlanePixels& rays = work_->memory.kept->rays;
+    if (rays.size() * sizeof(float) > kMostKept) PlanePixels().swap(rays);
     return std::move(work_->memory);
 }
 

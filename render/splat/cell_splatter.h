@@ -10,6 +10,7 @@
 #include "render/model/covered.h"
 #include "render/model/scene.h"
 #include "render/points/view.h"
+#include "render/splat/plane_pixels.h"
 #include "render/together.h"
 
 namespace render {
@@ -46,7 +47,7 @@ class CellSum {
     std::uint64_t add(std::uint64_t cells);
     bool done() const;
     const PixelBox& box() const;
-    std::vector<float>& plane();
+    PlanePixels& plane();
     CellMemory takeMemory();  // the last thing asked for
 
  private:

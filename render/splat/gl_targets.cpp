@@ -72,7 +72,7 @@ std::span<const float> GlTargets::opaqueDepth(std::vector<float>& room) const {
 }
 
 void GlTargets::putPlane(std::size_t i, Channels channels, const PixelBox& part,
-                         std::vector<float>& pixels) {
+                         PlanePixels& pixels) {
     plane(i, channels);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage2D(planes_[i]->texture.id(), 0, part.at.x, part.at.y, part.size.x, part.size.y,

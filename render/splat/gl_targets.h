@@ -32,7 +32,7 @@ class GlTargets final : public Targets {
 
     std::span<const float> opaqueDepth(std::vector<float>& room) const override;
     void putPlane(std::size_t i, Channels channels, const PixelBox& part,
-                  std::vector<float>& pixels) override;
+                  PlanePixels& pixels) override;
     std::vector<float> readScalarPlane(std::size_t i) const override;
     std::span<const float> lightRows(std::vector<float>& room) const override;
     GlTargets& onGl() override { return *this; }

@@ -27,7 +27,7 @@ std::span<std::uint8_t> MemoryTargets::srgb8Light() {
 }
 
 void MemoryTargets::putPlane(std::size_t i, Channels channels, const PixelBox& part,
-                             std::vector<float>& pixels) {
+                             PlanePixels& pixels) {
     if (planes_.size() <= i) planes_.resize(i + 1);
     planes_[i].channels = channels;
     planes_[i].part = part;

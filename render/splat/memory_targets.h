@@ -18,7 +18,7 @@ class MemoryTargets final : public Targets {
     struct Plane {
         Channels channels;
         PixelBox part;
-        std::vector<float> pixels;  // [y][x][1 or 4]
+        PlanePixels pixels;  // [y][x][1 or 4]
     };
     const Plane& plane(std::size_t i) const { return planes_[i]; }
     // One of them, with room for all pixels; the other is then empty.
@@ -27,7 +27,7 @@ class MemoryTargets final : public Targets {
 
     std::span<const float> opaqueDepth(std::vector<float>&) const override { return depth_; }
     void putPlane(std::size_t i, Channels channels, const PixelBox& part,
-                  std::vector<float>& pixels) override;
+                  PlanePixels& pixels) override;
     std::vector<float> readScalarPlane(std::size_t i) const override;
     std::span<const float> lightRows(std::vector<float>&) const override { return linear_; }
     std::span<const std::uint8_t> srgb8() const override { return srgb8_; }
@@ -37,7 +37,8 @@ class MemoryTargets final : public Targets {
  private:
     std::size_t pixels() const;
 
-    std::vector<float> depth_, linear_;
+    std::vector<float> depth_;
+    PlanePixels linear_;
     std::vector<std::uint8_t> srgb8_;
     std::vector<Plane> planes_;
     std::unique_ptr<GlTargets> onGl_;

@@ -198,7 +198,7 @@ struct MixedSum::Work {
     std::span<const float> opaqueDepth;
     int width;  // of the picture
     unsigned threads;
-    std::vector<float> kept, rays;
+    PlanePixels kept, rays;
     TilePlane plane;
     CellBatches batches;
     MixedList list;
@@ -207,7 +207,7 @@ struct MixedSum::Work {
     Points points;
 
     Work(const Scene& drawn, const View& view, std::span<const float> opaque, int raysAcross,
-         unsigned shared, std::vector<float> memory)
+         unsigned shared, PlanePixels memory)
         : scene(drawn),
           columns(columnsOf(drawn)),
           cells(drawn, view, Channels::Over, raysAcross),
@@ -254,7 +254,7 @@ void MixedSum::Work::sum(std::span<const CellOrPoint> some, bool lastOfAll) {
 }
 
 MixedSum::MixedSum(const Scene& scene, const View& view, std::span<const float> opaqueDepth,
-                   int raysAcross, unsigned threads, std::vector<float> memory)
+                   int raysAcross, unsigned threads, PlanePixels memory)
     : work_(new Work(scene, view, opaqueDepth, raysAcross, threads, std::move(memory))) {
     if (done()) work_->sum({}, true);  // nothing, which also is to be written
 }
@@ -289,7 +289,7 @@ std::uint64_t MixedSum::add(std::uint64_t count) {
 
 bool MixedSum::done() const { return work_->done(); }
 const PixelBox& MixedSum::box() const { return work_->cells.pixels; }
-std::vector<float>& MixedSum::plane() { return work_->kept; }
-std::vector<float> MixedSum::takeMemory() { return std::move(work_->kept); }
+PlanePixels& MixedSum::plane() { return work_->kept; }
+PlanePixels MixedSum::takeMemory() { return std::move(work_->kept); }
 
 }  // namespace render

@@ -10,6 +10,7 @@
 #include "render/model/covered.h"
 #include "render/model/scene.h"
 #include "render/points/view.h"
+#include "render/splat/plane_pixels.h"
 #include "render/together.h"
 
 namespace render {
@@ -23,8 +24,7 @@ class MixedSum {
  public:
     // REQUIRES: canSum() of the scene's.
     MixedSum(const Scene& scene, const View& view, std::span<const float> opaqueDepth,
-             int raysAcross = 1, unsigned threads = sharingThreads(),
-             std::vector<float> memory = {});
+             int raysAcross = 1, unsigned threads = sharingThreads(), PlanePixels memory = {});
     MixedSum(MixedSum&&) noexcept;
     ~MixedSum();
 
@@ -35,8 +35,8 @@ class MixedSum {
     std::uint64_t add(std::uint64_t cellsAndPoints);
     bool done() const;
     const PixelBox& box() const;
-    std::vector<float>& plane();
-    std::vector<float> takeMemory();  // the last thing asked for
+    PlanePixels& plane();
+    PlanePixels takeMemory();  // the last thing asked for
 
  private:
     struct Work;

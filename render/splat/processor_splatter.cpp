@@ -15,8 +15,8 @@ namespace render {
 namespace {
 
 // What of a part of a picture lies in another is added there.
-void addPart(const std::vector<float>& part, const PixelBox& at, std::size_t floats,
-             std::vector<float>& into, const PixelBox& whole) {
+void addPart(const PlanePixels& part, const PixelBox& at, std::size_t floats, PlanePixels& into,
+             const PixelBox& whole) {
     const glm::ivec2 lo = glm::max(at.at, whole.at);
     const glm::ivec2 hi = glm::min(at.at + at.size, whole.at + whole.size);
     const auto place = [&](const PixelBox& box, int y) {
@@ -58,9 +58,8 @@ class Plane final : public PlaneSum {
     void write() {
         if (!into_ || *into_ == sum_.box())
             return targets_.putPlane(plane_, channels_, sum_.box(), sum_.plane());
-        std::vector<float> pixels(floatsPerPixel(channels_) *
-                                  static_cast<std::size_t>(into_->size.x) *
-                                  static_cast<std::size_t>(into_->size.y));
+        PlanePixels pixels(floatsPerPixel(channels_) * static_cast<std::size_t>(into_->size.x) *
+                           static_cast<std::size_t>(into_->size.y));
         addPart(sum_.plane(), sum_.box(), floatsPerPixel(channels_), pixels, *into_);
         targets_.putPlane(plane_, channels_, *into_, pixels);
     }
@@ -98,8 +97,8 @@ class BothPlanes final : public PlaneSum {
     void write() {
         const std::size_t floats = floatsPerPixel(channels_);
         const PixelBox picture{{0, 0}, size_};
-        std::vector<float> whole(floats * static_cast<std::size_t>(size_.x) *
-                                 static_cast<std::size_t>(size_.y));
+        PlanePixels whole(floats * static_cast<std::size_t>(size_.x) *
+                          static_cast<std::size_t>(size_.y));
         addPart(first_.plane(), first_.box(), floats, whole, picture);
         addPart(second_.plane(), second_.box(), floats, whole, picture);
         targets_.putPlane(plane_, channels_, picture, whole);

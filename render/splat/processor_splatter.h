@@ -5,6 +5,7 @@
 
 #include "render/splat/cell_splatter.h"
 #include "render/splat/depth_order.h"
+#include "render/splat/plane_pixels.h"
 #include "render/splat/splatter.h"
 #include "render/splat/tile_splatter.h"
 
@@ -24,7 +25,8 @@ class ProcessorSplatter final : public Splatter {
 
     // Kept from frame to frame: pages that are new cost more than what is done with them.
     struct Memory {
-        std::vector<float> opaqueDepth, rows, mixed;
+        std::vector<float> opaqueDepth;
+        PlanePixels rows, mixed;
         TileMemory tiles;
         CellMemory cells;
     };

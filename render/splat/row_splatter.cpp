@@ -171,7 +171,7 @@ struct RowSum::Work {
     std::span<const float> opaqueDepth;
     std::vector<float> nothingOpaque;  // a row of it, where there is none
     unsigned threads;
-    std::vector<float> plane;
+    PlanePixels plane;
     std::vector<float> rowWeights;  // a row a thread
     SplatPoints points;
     std::vector<Placed> placed;
@@ -209,7 +209,7 @@ void RowSum::Work::sum() {
 
 RowSum::RowSum(const Scene& scene, const DrawList& list, const View& view, Channels channels,
                std::size_t layer, std::span<const float> opaqueDepth, unsigned threads,
-               std::vector<float> memory) {
+               PlanePixels memory) {
     threads = std::max(threads, 1u);
     const PixelBox box = coveredPixels(scene, view);
     const auto width = static_cast<std::size_t>(box.size.x);
@@ -247,8 +247,8 @@ std::uint64_t RowSum::add(std::uint64_t splats) {
 
 bool RowSum::done() const { return work_->source.done(); }
 const PixelBox& RowSum::box() const { return work_->box; }
-std::vector<float>& RowSum::plane() { return work_->plane; }
-std::vector<float> RowSum::takeMemory() { return std::move(work_->plane); }
+PlanePixels& RowSum::plane() { return work_->plane; }
+PlanePixels RowSum::takeMemory() { return std::move(work_->plane); }
 
 std::vector<float> sumRows(const Scene& scene, const DrawList& list, const View& view,
                            Channels channels, std::size_t layer, std::span<const float> opaqueDepth,

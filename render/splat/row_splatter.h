@@ -11,6 +11,7 @@
 #include "render/model/covered.h"
 #include "render/model/scene.h"
 #include "render/points/view.h"
+#include "render/splat/plane_pixels.h"
 #include "render/together.h"
 
 namespace render {
@@ -25,7 +26,7 @@ class RowSum {
     // `memory` is what a plane before was made of, if any: pages that are new cost much.
     RowSum(const Scene& scene, const DrawList& list, const View& view, Channels channels,
            std::size_t layer, std::span<const float> opaqueDepth,
-           unsigned threads = sharingThreads(), std::vector<float> memory = {});
+           unsigned threads = sharingThreads(), PlanePixels memory = {});
     RowSum(RowSum&&) noexcept;
     ~RowSum();
 
@@ -37,8 +38,8 @@ class RowSum {
     // The part of the picture that is summed, and what it sums to: [y][x][1 or 4], row 0 at the
     // bottom. Beside it there is nothing.
     const PixelBox& box() const;
-    std::vector<float>& plane();
-    std::vector<float> takeMemory();  // the last thing asked for
+    PlanePixels& plane();
+    PlanePixels takeMemory();  // the last thing asked for
 
  private:
     struct Work;

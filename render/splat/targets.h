@@ -14,6 +14,7 @@
 #include "render/image/image.h"
 #include "render/model/covered.h"
 #include "render/model/scene.h"
+#include "render/splat/plane_pixels.h"
 
 namespace render {
 
@@ -35,7 +36,7 @@ class Targets {
     // Plane i of this kind, which is nothing outside this part of the picture. May leave other
     // memory than it was given.
     virtual void putPlane(std::size_t i, Channels channels, const PixelBox& part,
-                          std::vector<float>& pixels) = 0;
+                          PlanePixels& pixels) = 0;
 
     // Row 0 at the top, as in Image. REQUIRES: plane i is Weight or Count.
     virtual std::vector<float> readScalarPlane(std::size_t i) const = 0;

@@ -14,7 +14,7 @@ void TileChains::clear(std::size_t tiles, std::size_t most) {
 
 std::uint32_t* TileChains::moreFor(std::uint32_t tile) {
     if (used_ == pages_.size() * kPage) {
-        pages_.push_back(std::make_unique_for_overwrite<Block[]>(kPage));
+        pages_.emplace_back(kPage);
         next_.resize(pages_.size() * kPage);
     }
     const auto block = static_cast<std::uint32_t>(used_++);

@@ -6,8 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <vector>
+
+#include "timeseries/grid/pages.h"
 
 namespace render {
 
@@ -36,10 +37,10 @@ class TileChains {
         std::array<std::uint32_t, kWords> words;
     };
     std::uint32_t* moreFor(std::uint32_t tile);
-    Block& at(std::size_t block) const { return pages_[block / kPage][block % kPage]; }
+    Block& at(std::size_t block) const { return pages_[block / kPage].data()[block % kPage]; }
 
-    static constexpr std::size_t kPage = 2048;  // blocks
-    std::vector<std::unique_ptr<Block[]>> pages_;
+    static constexpr std::size_t kPage = 1 << 14;  // blocks: 8 MB, so in large pages
+    std::vector<timeseries::Pages<Block>> pages_;
     std::size_t used_ = 0;                     // blocks
     std::vector<std::uint32_t> next_;          // the block after each
     std::vector<std::uint32_t> first_, last_;  // blocks of each tile that holds anything

@@ -16,7 +16,7 @@ void storeRow(const float* sums, const float* factor, std::size_t width, float* 
 }  // namespace
 
 TilePlane::TilePlane(const TileLayout& layout, std::span<const float> opaqueDepth, int pictureWidth,
-                     unsigned threads, std::vector<float>& plane, std::vector<float>& rays)
+                     unsigned threads, PlanePixels& plane, PlanePixels& rays)
     : layout_(layout),
       opaqueDepth_(opaqueDepth),
       pictureWidth_(pictureWidth),

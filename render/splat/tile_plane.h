@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "render/splat/plane_pixels.h"
 #include "render/splat/tile_layout.h"
 #include "render/splat/tile_room.h"
 #include "render/together.h"
@@ -20,7 +21,7 @@ class TilePlane {
     // box; the same vector where a pixel has one ray. The layout and all of these must outlive
     // this.
     TilePlane(const TileLayout& layout, std::span<const float> opaqueDepth, int pictureWidth,
-              unsigned threads, std::vector<float>& plane, std::vector<float>& rays);
+              unsigned threads, PlanePixels& plane, PlanePixels& rays);
 
     // Calls add(thread, tile, room) for every tile that holds(tile), on so many threads, a tile on
     // one. The last go of all also writes those that nothing has touched.
@@ -57,7 +58,7 @@ class TilePlane {
     const TileLayout& layout_;
     std::span<const float> opaqueDepth_;
     int pictureWidth_;
-    std::vector<float>&plane_, &rays_;
+    PlanePixels &plane_, &rays_;
     std::size_t floats_;
     std::vector<TileRoom> rooms_;
     std::vector<std::uint8_t> begun_;  // tiles

@@ -74,9 +74,9 @@ void putInOrder(InTile& here) {
 }  // namespace
 
 struct TileMemory::Kept {
-    std::vector<float> plane;
+    PlanePixels plane;
     SplatPoints points;
-    std::vector<SeenSplat> seen;  // of a mesh, of these points
+    timeseries::LargeVector<SeenSplat> seen;  // of a mesh, of these points
     // One a thread.
     std::vector<TileChains> chains;
     std::vector<InTile> inTile;
@@ -297,7 +297,7 @@ std::uint64_t TileSum::add(std::uint64_t splats) {
 
 bool TileSum::done() const { return work_->source->done(); }
 const PixelBox& TileSum::box() const { return work_->view.box; }
-std::vector<float>& TileSum::plane() { return work_->kept.plane; }
+PlanePixels& TileSum::plane() { return work_->kept.plane; }
 TileMemory TileSum::takeMemory() { return std::move(work_->memory); }
 
 std::vector<float> sumTiles(const Scene& scene, const DrawList& list, const View& view,

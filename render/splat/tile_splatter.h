@@ -11,6 +11,7 @@
 #include "render/model/covered.h"
 #include "render/model/scene.h"
 #include "render/points/view.h"
+#include "render/splat/plane_pixels.h"
 #include "render/together.h"
 
 namespace render {
@@ -62,7 +63,7 @@ class TileSum {
     // The part of the picture that is summed, and, when done, what it sums to: [y][x][1 or 4], row
     // 0 at the bottom. Beside it there is nothing.
     const PixelBox& box() const;
-    std::vector<float>& plane();
+    PlanePixels& plane();
     TileMemory takeMemory();  // the last thing asked for
 
  private:

@@ -46,7 +46,7 @@ TEST(Enlarge, IsASumOfTentsAndNothingBeyondThePart) {
             // Wider than what is known, and cut in its middle.
             for (const PixelBox& part : {PixelBox{{0, 0}, {40, 33}}, PixelBox{{11, 9}, {6, 5}},
                                          PixelBox{{0, 0}, {3, 2}}}) {
-                std::vector<float> pixels;
+                PlanePixels pixels;
                 enlarge(coarse, across, part, pixels);
                 const std::size_t floats = floatsPerPixel(channels);
                 ASSERT_EQ(pixels.size(), floats * static_cast<std::size_t>(part.size.x) *
@@ -69,7 +69,8 @@ TEST(Enlarge, IsWhatTheToldErrorTakesItFor) {
     std::vector<glm::ivec2> pixels;
     for (int y = 0; y < 2 * size.y; ++y)
         for (int x = 0; x < 2 * size.x; ++x) pixels.emplace_back(x, y);
-    const std::vector<double> depth = enlarged(depthFrom(coarse.pixels, size), 2, size)(pixels);
+    const std::vector<double> depth =
+        enlarged(depthFrom({coarse.pixels.begin(), coarse.pixels.end()}, size), 2, size)(pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i)
         ASSERT_NEAR(depth[i], tents(coarse, 2, pixels[i], 0), 1e-6);
 }

@@ -248,7 +248,7 @@ TEST(MeshSplats, TilesSumEveryChannelAsTheTruthDoes) {
         for (const unsigned threads : {1u, 3u}) {
             TileSum sum(world.scene, list, view, channels, 0, opaque, threads, {}, threads);
             while (!sum.done()) sum.add(threads);
-            const std::vector<float> sliced = sum.plane();
+            const PlanePixels sliced = sum.plane();
             TileSum whole(world.scene, list, view, channels, 0, opaque, 2);
             whole.add(1 << 20);
             EXPECT_EQ(sliced, whole.plane());

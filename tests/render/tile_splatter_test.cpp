@@ -83,7 +83,7 @@ class OrderInTiles : public TileSplatter {
         while (!sum.done()) added += sum.add(1);
         const auto* const sorted = std::get_if<Sorted>(&list);  // without those clipped
         EXPECT_EQ(added, sorted ? sorted->point.size() : splatCount(scene));
-        return std::move(sum.plane());
+        return std::vector<float>(sum.plane().begin(), sum.plane().end());
     }
     void expectTheSame(const Scene& scene) const {
         const auto before = summed(scene, order(scene, eye_));

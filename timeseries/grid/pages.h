@@ -60,18 +60,27 @@ class Pages {
 };
 
 template <typename T>
-struct PageAllocator {
+struct LargePageAllocator {
     using value_type = T;
+    LargePageAllocator() = default;
+    template <typename Other>
+    explicit LargePageAllocator(const LargePageAllocator<Other>&) {}
+    T* allocate(std::size_t count) { return static_cast<T*>(takePages(count * sizeof(T))); }
+    void deallocate(T* at, std::size_t count) noexcept { givePages(at, count * sizeof(T)); }
+    friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
+};
+template <typename T>
+using LargeVector = std::vector<T, LargePageAllocator<T>>;
+
+template <typename T>
+struct PageAllocator : LargePageAllocator<T> {
     PageAllocator() = default;
     template <typename Other>
     explicit PageAllocator(const PageAllocator<Other>&) {}
-    T* allocate(std::size_t count) { return static_cast<T*>(takePages(count * sizeof(T))); }
-    void deallocate(T* at, std::size_t count) noexcept { givePages(at, count * sizeof(T)); }
     template <typename Other>
     void construct(Other* at) noexcept {
         ::new (static_cast<void*>(at)) Other;
     }
-    friend bool operator==(const PageAllocator&, const PageAllocator&) { return true; }
 };
 // What resize() adds to it without a value is anything until it is written.
 template <typename T>
