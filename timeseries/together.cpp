@@ -78,14 +78,29 @@ class Helpers {
     void run(unsigned threads, const SharedWork& work) {
         while (all_.size() + 1 < threads)
             all_.push_back(std::make_unique<Helper>(static_cast<unsigned>(all_.size() + 1)));
-        busy_ = true;
+        const Call call(*this, threads);
         for (unsigned k = 1; k < threads; ++k) all_[k - 1]->begin(work);
         work(0);
-        for (unsigned k = 1; k < threads; ++k) all_[k - 1]->end();
-        busy_ = false;
     }
 
  private:
+    // Ends when all have, however it ends.
+    class Call {
+     public:
+        Call(Helpers& helpers, unsigned threads) : helpers_(helpers), threads_(threads) {
+            helpers_.busy_ = true;
+        }
+        ~Call() {
+            for (unsigned k = 1; k < threads_; ++k) helpers_.all_[k - 1]->end();
+            helpers_.busy_ = false;
+        }
+        Call(const Call&) = delete;
+        Call& operator=(const Call&) = delete;
+
+     private:
+        Helpers& helpers_;
+        unsigned threads_;
+    };
     bool isCopy() const { return getpid() != of_; }
 
     const pid_t of_ = getpid();
