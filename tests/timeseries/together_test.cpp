@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <barrier>
+#include <cstdlib>
 #include <mutex>
 #include <numeric>
 #include <set>
@@ -77,10 +78,15 @@ TEST(Together, EachCallerHasItsOwn) {
     EXPECT_EQ(std::set(all.begin(), all.end()).size(), 12u);
 }
 
-// Those of a process are not in its copy.
+// Those of a process are not in its copy, which tells by crashing that it came so far: of one that
+// waits nothing is told.
 TEST(Together, WorksInACopyOfTheProcess) {
+    const auto died = [] {
+        workers(3);
+        std::abort();
+    };
     workers(3);
-    EXPECT_EQ(endOfForked([] { workers(3); }, std::chrono::seconds(20)), "");
+    EXPECT_EQ(endOfForked(died, std::chrono::seconds(20)), "crashes");
     EXPECT_EQ(workers(3).size(), 3u);
 }
 
