@@ -3,8 +3,8 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <exception>
 #include <memory>
-#include <utility>
 
 namespace timeseries {
 namespace {
@@ -13,8 +13,7 @@ using SharedWork = std::function<void(unsigned)>;
 
 // Waits while `held` is this. A core that has gone to sleep takes a tenth of a millisecond to come
 // back, the parts of a frame less than one: so it is looked at for a while before.
-template <typename T>
-void waitWhile(const std::atomic<T>& held, T value) {
+void waitWhile(const std::atomic<const SharedWork*>& held, const SharedWork* value) {
     constexpr auto kAwake = std::chrono::microseconds(500);
     const auto until = std::chrono::steady_clock::now() + kAwake;
     while (held.load(std::memory_order_acquire) == value) {
@@ -48,7 +47,7 @@ class Helper {
     void help(unsigned k) {
         isOne_ = true;
         for (;;) {
-            waitWhile<const SharedWork*>(work_, nullptr);
+            waitWhile(work_, nullptr);
             const SharedWork* const work = work_.load(std::memory_order_acquire);
             if (work == &kStop) return;
             (*work)(k);

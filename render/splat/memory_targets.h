@@ -18,7 +18,7 @@ class MemoryTargets final : public Targets {
     struct Plane {
         Channels channels;
         PixelBox part;
-        PlanePixels pixels;  // [y][x][1 or 4]
+        PlanePixels pixels;
     };
     const Plane& plane(std::size_t i) const { return planes_[i]; }
     // One of them, with room for all pixels; the other is then empty.

@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <barrier>
+#include <chrono>
 #include <cstdlib>
 #include <mutex>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 
