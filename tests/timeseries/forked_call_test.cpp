@@ -78,7 +78,7 @@ TEST(Trial, WorkMayAllocateWhileOtherThreadsDo) {
         others.emplace_back([&] {
             for (std::size_t n = 1; !stop; n = n % 5000 + 1) std::vector<char>(n).front() = 1;
         });
-    for (int i = 0; i < 100; ++i)
+    for (int i = 0; i < 40; ++i)
         EXPECT_EQ(
             endOfForked([&] { std::vector<std::vector<char>>(50, std::vector<char>(100)); }, 10s),
             "");
