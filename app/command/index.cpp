@@ -62,7 +62,9 @@ int index(const IndexOptions& options) {
     if (jobs > 1)  // each sorts on its share of the cores
         timeseries::threadLimit = std::max(1u, timeseries::sharingThreads() / jobs);
     timeseries::sharing(jobs, [&](unsigned) { all.work(); });
-    return tellIndexed(all.done(), *store);
+    IndexedSteps done = all.done();
+    done.lost = store->lost();
+    return tellIndexed(done, *store);
 }
 
 }  // namespace app

@@ -200,9 +200,10 @@ IndexedSteps indexAll(const Ranks& ranks, const IndexOptions& options,
         if (kept == StepMaker::Kept::Written) ++done.written;
         if (kept == StepMaker::Kept::Not) ++done.notKept;
     }
-    std::array<std::uint64_t, 4> sums{done.before, done.written, done.notKept, done.failed};
+    std::array<std::uint64_t, 5> sums{done.before, done.written, done.notKept, done.failed,
+                                      store->lost()};
     ranks.sum(sums);
-    return {sums[0], sums[1], sums[2], sums[3]};
+    return {sums[0], sums[1], sums[2], sums[3], sums[4]};
 }
 
 int indexOf(const Ranks& ranks, const IndexOptions& options) {
@@ -217,7 +218,7 @@ int indexOf(const Ranks& ranks, const IndexOptions& options) {
     });
     const IndexedSteps done = indexAll(ranks, options, store, std::move(tasks));
     if (ranks.isFirst()) return tellIndexed(done, *store);
-    return done.failed == 0 ? 0 : 1;
+    return done.failed + done.lost == 0 ? 0 : 1;
 }
 
 }  // namespace

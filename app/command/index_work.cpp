@@ -68,7 +68,8 @@ void IndexWork::finish(std::optional<StepMaker::Kept> kept) {
 void IndexWork::work() {
     std::unique_ptr<StepMaker> maker;
     std::string variable;
-    for (std::size_t i; (i = next_++) < tasks_.size();) {
+    // Where the store has begun to lose what it was given there is no end.
+    for (std::size_t i; store_->lost() == 0 && (i = next_++) < tasks_.size();) {
         const IndexTask& task = tasks_[i];
         if (!maker || variable != task.variable) {
             OpenDataset dataset = openDataset(options_.files, task.variable);
@@ -95,11 +96,20 @@ int tellIndexed(const IndexedSteps& done, const StepStore& store) {
         done.notKept == 0
             ? ""
             : fmt::format(
-                  ", {} that cannot be kept: their points move, their files changed, or all "
-                  "their values are missing",
+                  ", {} that cannot be kept: their points move, their files changed or are of the "
+                  "future, all their values are missing, or they are of a format whose steps are "
+                  "sorted each time",
                   done.notKept),
         store.folder().string(), megabytesText(bytes));
-    return done.failed == 0 ? 0 : 1;
+    if (done.lost > 0)
+        sayTo(stderr,
+              "isochron: {} has no room for all of them: it takes {} (a tenth of its disk, 64 GiB "
+              "at most), for "
+              "which {} of these steps had to go; --cache names another folder, --beside writes "
+              "beside the "
+              "data, with no such limit\n",
+              store.folder().string(), megabytesText(store.budget()), withCommas(done.lost));
+    return done.failed + done.lost == 0 ? 0 : 1;
 }
 
 }  // namespace app

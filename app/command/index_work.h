@@ -30,6 +30,7 @@ std::shared_ptr<timeseries::StepStore> indexStoreOf(const IndexOptions& options)
 
 struct IndexedSteps {
     std::size_t before = 0, written = 0, notKept = 0, failed = 0;
+    std::size_t lost = 0;  // of those that were there or written
     std::size_t all() const { return before + written + notKept + failed; }
 };
 

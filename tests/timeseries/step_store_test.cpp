@@ -245,6 +245,32 @@ TEST_F(StepStores, TheBudgetKeepsWhatWasUsedLast) {
     EXPECT_TRUE(small->find(originOf(first)));
     EXPECT_FALSE(small->find(originOf(folder / "b.nrrd")));
     EXPECT_TRUE(small->find(originOf(folder / "c.nrrd")));
+    EXPECT_EQ(small->lost(), 1u);
+    EXPECT_EQ(store->lost(), 0u);
+}
+
+// A simulation's own steps may lie where a cache was put.
+TEST_F(StepStores, FilesUnderNamesOfTheirOwnStay) {
+    (void)maker()->keep(0);
+    const fs::path kept = store->list().at(0).path;
+    const std::uint64_t size = store->list().at(0).bytes;
+    const std::string own[] = {"wave_0000.isostep", kept.stem().string().substr(1) + ".isostep",
+                               kept.stem().string() + "0.isostep",
+                               "g" + kept.stem().string().substr(1) + ".isostep"};
+    for (const std::string& name : own) fs::copy_file(kept, folder / "steps" / name);
+    ASSERT_EQ(files(), 1 + std::size(own));
+    EXPECT_EQ(store->list().size(), 1u);
+    // Nor do they make room, or take of the budget.
+    const auto small =
+        std::make_shared<StepStore>(folder / "steps", StoreKind::Cache, size * 3 / 2, kAtOnce);
+    file = nrrdOf(folder / "b.nrrd", 100);
+    EXPECT_EQ(maker(small)->keep(0), StepMaker::Kept::Written);
+    EXPECT_FALSE(fs::exists(kept));
+    EXPECT_EQ(files(), 1 + std::size(own));
+    const std::uint64_t left = store->list().at(0).bytes;
+    EXPECT_EQ(left, store->clear());
+    EXPECT_EQ(files(), std::size(own));
+    for (const std::string& name : own) EXPECT_TRUE(fs::exists(folder / "steps" / name)) << name;
 }
 
 TEST_F(StepStores, BesideTheDataTheyMoveWithThem) {
@@ -261,6 +287,34 @@ TEST_F(StepStores, BesideTheDataTheyMoveWithThem) {
     EXPECT_FALSE(maker(beside())->make(0)->file());
     fs::last_write_time(file, time);  // as cp -p and rsync -t leave it
     EXPECT_TRUE(maker(beside())->make(0)->file());
+}
+
+// Runs in folders of their own, times of an OpenFOAM case: alike in name, size and time.
+TEST_F(StepStores, BesideTheDataFilesOfOneNameInSeveralFoldersAreSeveral) {
+    for (const char* run : {"runs/1", "runs/2", "runs/2/0.1"}) fs::create_directories(folder / run);
+    const fs::path runs = folder / "runs";
+    const std::vector<fs::path> paths{
+        nrrdOf(runs / "1/out.nrrd", 100), nrrdOf(runs / "2/out.nrrd", 50),
+        nrrdOf(runs / "2/0.1/out.nrrd", 70), nrrdOf(runs / "out.nrrd", 30)};
+    const int values[] = {100, 50, 70, 30};
+    const auto time = fs::last_write_time(paths[0]);
+    for (const fs::path& path : paths) fs::last_write_time(path, time);
+    const auto expectEach = [&](const fs::path& at, StepMaker::Kept kept) {
+        const auto beside = std::make_shared<StepStore>(
+            at / "runs/1/isochron-index", StoreKind::Beside, StepStore::kNoBudget, kAtOnce);
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+            file = at / fs::relative(paths[i], folder);
+            EXPECT_EQ(maker(beside)->keep(0), kept) << file;
+            const auto step = maker(beside)->make(0);
+            ASSERT_TRUE(step->file()) << file;
+            expectField(*step, values[i]);
+        }
+    };
+    expectEach(folder, StepMaker::Kept::Written);
+    // They move together.
+    fs::create_directory(folder / "moved");
+    fs::rename(runs, folder / "moved/runs");
+    expectEach(folder / "moved", StepMaker::Kept::Before);
 }
 
 }  // namespace

@@ -29,11 +29,22 @@ Clock::time_point timeOf(std::int64_t sinceEpoch) {
         std::chrono::duration_cast<Clock::duration>(std::chrono::nanoseconds(sinceEpoch)));
 }
 
-fs::path nameOf(const fs::path& file, StoreKind kind) {
-    std::error_code failed;
-    if (kind == StoreKind::Beside) return file.filename();
-    const fs::path whole = fs::weakly_canonical(file, failed);
-    return failed ? fs::absolute(file, failed) : whole;
+// From where the store lies to a file that it lies beside, or in a folder there: of files alike in
+// name there may be one for each case, run or time.
+fs::path fromBeside(const fs::path& store, const fs::path& file) {
+    const auto plain = [](const fs::path& path) {
+        std::error_code failed;
+        return fs::absolute(path, failed).lexically_normal();
+    };
+    const fs::path near = plain(file).lexically_relative(plain(store).parent_path());
+    return near.empty() ? plain(file) : near;
+}
+
+// `pathOf` gives such names, 32 digits; what else lies in a folder is somebody's own.
+bool isStored(const fs::path& path) {
+    const std::string name = path.stem().string();
+    return path.extension() == kSuffix && name.size() == 32 &&
+           name.find_first_not_of("0123456789abcdef") == name.npos;
 }
 
 // JSON holds UTF-8 alone, names of files any bytes.
@@ -42,6 +53,13 @@ std::string textOf(const std::string& text) {
 }
 
 }  // namespace
+
+fs::path StepStore::nameOf(const fs::path& file) const {
+    if (kind_ == StoreKind::Beside) return fromBeside(folder_, file);
+    std::error_code failed;
+    const fs::path whole = fs::weakly_canonical(file, failed);
+    return failed ? fs::absolute(file, failed) : whole;
+}
 
 StepStore::StepStore(fs::path folder, StoreKind kind, std::uint64_t budget,
                      std::chrono::milliseconds settled)
@@ -54,7 +72,7 @@ std::optional<OriginStamp> StepStore::stampOf(const StepOrigin& origin) const {
         struct stat status {};
         if (::stat(file.c_str(), &status) != 0) return std::nullopt;
         files += fmt::format("{}{{\"file\": {}, \"bytes\": {}, \"modified\": {}",
-                             files.empty() ? "" : ", ", textOf(nameOf(file, kind_).string()),
+                             files.empty() ? "" : ", ", textOf(nameOf(file).string()),
                              status.st_size, nanosecondsOf(status.st_mtim));
         std::int64_t last = nanosecondsOf(status.st_mtim);
         if (kind_ == StoreKind::Cache) {
@@ -77,7 +95,7 @@ fs::path StepStore::pathOf(const StepOrigin& origin) const {
     const auto add = [&](const std::string& part) {
         whole += fmt::format("{}:{};", part.size(), part);
     };
-    for (const fs::path& file : origin.files) add(nameOf(file, kind_).string());
+    for (const fs::path& file : origin.files) add(nameOf(file).string());
     add(origin.variable);
     add(origin.storedAs);
     add(std::to_string(origin.step));
@@ -87,8 +105,10 @@ fs::path StepStore::pathOf(const StepOrigin& origin) const {
 
 std::shared_ptr<const StepFile> StepStore::find(const StepOrigin& origin) {
     auto file = look(origin);
+    if (!file) return nullptr;
     // When it was used last; a folder that cannot be written to keeps what it has.
-    if (file) (void)::utimensat(AT_FDCWD, file->name().c_str(), nullptr, 0);
+    (void)::utimensat(AT_FDCWD, file->name().c_str(), nullptr, 0);
+    own(pathOf(origin));
     return file;
 }
 
@@ -129,6 +149,7 @@ bool StepStore::write(const StepOrigin& origin, const OriginStamp& stamp, Clock:
     WholeFile file(pathOf(origin));
     if (!into(file) || !isStill()) return false;
     file.finish();
+    own(pathOf(origin));
     makeRoom();
     return true;
 }
@@ -137,7 +158,7 @@ std::vector<StepStore::Entry> StepStore::list() const {
     std::vector<Entry> entries;
     std::error_code failed;
     for (const auto& item : fs::directory_iterator(folder_, failed)) {
-        if (item.path().extension() != kSuffix) continue;
+        if (!isStored(item.path())) continue;
         struct stat status {};
         if (::stat(item.path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
         entries.push_back({item.path(), static_cast<std::uint64_t>(status.st_size),
@@ -165,9 +186,14 @@ std::optional<Clock::time_point> StepStore::changedAt(const fs::path& file) {
 std::uint64_t StepStore::clear() {
     removeUnfinished(folder_);
     std::uint64_t bytes = 0;
-    std::error_code failed;
-    for (const Entry& entry : list())
+    for (const Entry& entry : list()) {
+        std::error_code failed;
         if (fs::remove(entry.path, failed)) bytes += entry.bytes;
+        if (failed)
+            throw StepFileError(fmt::format("{}: cannot be removed: {}; {:.1f} MB were before it",
+                                            entry.path.string(), failed.message(),
+                                            static_cast<double>(bytes) * 1e-6));
+    }
     return bytes;
 }
 
@@ -178,14 +204,29 @@ void StepStore::makeRoom() {
     std::error_code failed;
     for (const Entry& entry : list()) {
         bytes += entry.bytes;
-        if (bytes > budget_) fs::remove(entry.path, failed);
+        if (bytes <= budget_ || !fs::remove(entry.path, failed)) continue;
+        const std::lock_guard lock(mutex_);
+        lost_ += own_.erase(entry.path);
     }
+}
+
+void StepStore::own(fs::path path) {
+    const std::lock_guard lock(mutex_);
+    own_.insert(std::move(path));
+}
+
+std::size_t StepStore::lost() const {
+    const std::lock_guard lock(mutex_);
+    return lost_;
 }
 
 void StepStore::discard(const fs::path& path, const std::string& why) {
     std::error_code failed;
     fs::remove(path, failed);
-    note(why + "; it was removed, and the step is read from its own file");
+    note(why +
+         (failed ? fmt::format("; it cannot be removed ({})", failed.message())
+                 : "; it was removed") +
+         ", and the step is read from its own file");
 }
 
 void StepStore::giveUp(const std::string& why) {

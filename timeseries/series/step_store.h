@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,8 @@ struct OriginStamp {
 // Whose the steps are.
 enum class StoreKind {
     Cache,  // this machine's: files by their whole paths, and by all that the system knows of them
-    Beside  // lies beside the data and moves with it: names, sizes and times of modification
+    Beside  // lies beside the data and moves with it: how files are reached from there, their sizes
+            // and times of modification
 };
 
 // Every member is safe to call from any thread, and several processes may use one folder. What
@@ -88,25 +90,33 @@ class StepStore {
     // When a file was changed last; none where it is not there.
     static std::optional<std::chrono::system_clock::time_point> changedAt(
         const std::filesystem::path& file);
-    // Removes all, and what interrupted writers have left. Returns the bytes that were taken.
+    // Removes all, and what interrupted writers have left; files under names of their own stay.
+    // Returns the bytes that were taken. Throws StepFileError.
     std::uint64_t clear();
 
     // A step turned out to be damaged: it is removed, and told.
     void discard(const std::filesystem::path& path, const std::string& why);
+    // How many of those that were written or found through this have made room for others since.
+    std::size_t lost() const;
+    std::uint64_t budget() const { return budget_; }
     // What a user should know, each once, since the last call.
     std::vector<std::string> takeNotes();
 
  private:
+    // What a file is known by.
+    std::filesystem::path nameOf(const std::filesystem::path& file) const;
     void makeRoom();
-    void removeLeftovers() const;
+    void own(std::filesystem::path path);
     void note(std::string text);
 
     const std::filesystem::path folder_;
     const StoreKind kind_;
     const std::uint64_t budget_;
     const std::chrono::milliseconds settled_;
-    std::mutex mutex_;
-    std::vector<std::string> notes_, told_;  // guarded by mutex_
+    mutable std::mutex mutex_;
+    std::vector<std::string> notes_, told_;  // guarded by mutex_, as what follows
+    std::set<std::filesystem::path> own_;
+    std::size_t lost_ = 0;
 };
 
 // A tenth of the disk that the folder is, or would be, on, at most 64 GiB.
