@@ -98,11 +98,11 @@ std::vector<std::string> renderArguments(const Explorer& e, const fs::path& outp
                                          const fs::path& folder) {
     assert(!e.layers.empty() || e.noLayers);
     Arguments arguments({"render"});
-    for (const fs::path& file : e.files) arguments.file(relativeTo(folder, file));
+    for (const fs::path& file : e.files) arguments.file(namedFrom(folder, file));
     addChoices(e, arguments);
     addAxisNames(e, arguments);
     addLayers(e, arguments);
-    arguments.option("--output", relativeTo(folder, output).generic_string());
+    arguments.option("--output", namedFrom(folder, output).generic_string());
     return arguments.take();
 }
 

@@ -208,6 +208,8 @@ std::string clipSideText(const std::optional<ClipBox>& clip, const timeseries::G
 }
 
 void removeLayer(Explorer& explorer, std::size_t layer) {
+    // Values alone were to play: without them time is what is left.
+    if (explorer.layers[layer].motion) explorer.play.timeMoves = true;
     explorer.layers.erase(explorer.layers.begin() + static_cast<std::ptrdiff_t>(layer));
     explorer.noLayers = explorer.layers.empty();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "app/choices/decimals.h"
 
@@ -40,6 +41,26 @@ double quantile(const std::vector<double>& sorted, double fraction) {
                                            0.5)];
 }
 
+// A value at either end that many points have and that lies farther from the others than those
+// reach, unless it is the background: what a model's land looks like whose file names no fill
+// value.
+std::optional<double> fillOf(const std::vector<double>& sorted) {
+    constexpr double kMany = 0.2;
+    const double middle = background(sorted);
+    for (const double end : {sorted.front(), sorted.back()}) {
+        std::vector<double> others;
+        std::ranges::copy_if(sorted, std::back_inserter(others),
+                             [&](double v) { return v != end; });
+        const auto points = static_cast<double>(sorted.size() - others.size());
+        if (end == middle || others.empty() || points < kMany * static_cast<double>(sorted.size()))
+            continue;
+        const double gap = std::min(std::abs(others.front() - end), std::abs(others.back() - end));
+        const double reach = quantile(others, 0.99) - quantile(others, 0.01);
+        if (reach > 0 && gap > reach) return end;
+    }
+    return std::nullopt;
+}
+
 // Rounded towards `middle`, so that what lies beyond the value stays selected: to three significant
 // digits of `scale`, or to two of the distance from `middle` where that is much less (the value is
 // inside, the scale far out in a heavy tail).
@@ -71,10 +92,7 @@ RangeSet farFrom(const std::vector<double>& sorted, double middle, double scale)
     return RangeSet(std::move(sides));
 }
 
-}  // namespace
-
-LayerChoice firstChoice(const Quantiles& sampled) {
-    const std::vector<double> sorted = finiteSorted(sampled);
+LayerChoice choiceOf(const std::vector<double>& sorted) {
     LayerChoice layer{.ranges = RangeSet::everything(), .color = {}, .opacity = {}};
     if (sorted.empty() || sorted.front() == sorted.back()) return layer;
     const double lo = sorted.front(), hi = sorted.back();
@@ -119,6 +137,28 @@ LayerChoice firstChoice(const Quantiles& sampled) {
         layer.ranges = RangeSet(std::vector{Range{{-kInfinity}, {tied ? middle : to, tied}}});
         mappedTo(tied ? middle : to);
     }
+    return layer;
+}
+
+}  // namespace
+
+LayerChoice firstChoice(const Quantiles& sampled) {
+    std::vector<double> sorted = finiteSorted(sampled);
+    const auto fill = sorted.empty() ? std::nullopt : fillOf(sorted);
+    if (!fill) return choiceOf(sorted);
+    std::erase(sorted, *fill);
+    LayerChoice layer = choiceOf(sorted);
+    // A tenth of how far the others reach towards it: rarer ones are there, and what lies between
+    // for no reason is not.
+    const double reach = sorted.back() - sorted.front();
+    const bool isBelow = *fill < sorted.front();
+    const double near = isBelow ? sorted.front() - 0.1 * reach : sorted.back() + 0.1 * reach;
+    std::vector<Range> beside(layer.ranges.ranges().begin(), layer.ranges.ranges().end());
+    for (Range& range : beside) {
+        Bound& outer = isBelow ? range.lo : range.hi;
+        if (std::isinf(timeseries::toDouble(outer.value))) outer = {rounded(near, *fill, reach)};
+    }
+    layer.ranges = RangeSet(std::move(beside));
     return layer;
 }
 

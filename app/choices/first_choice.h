@@ -13,8 +13,9 @@ using Quantiles = std::vector<std::vector<double>>;
 
 // Most fields are mostly background: one value, or a narrow band, that fills the volume. The choice
 // is the tenth of the points that lies farthest beyond it: above, below, or on both sides where the
-// values reach about as far to either. Bounds are rounded to three digits; the outer end is open.
-// A constant field selects everything; no points, nothing but the whole range.
+// values reach about as far to either. Bounds are rounded to three digits; the outer end is open. A
+// value far from all others that a fifth of the points have, and that is not the background, is
+// left out: land, say. A constant field selects everything; no points, nothing but the whole range.
 LayerChoice firstChoice(const Quantiles& sampled);
 
 // The share of a range by which a map that was not asked for begins below it.

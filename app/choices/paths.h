@@ -18,6 +18,14 @@ inline std::filesystem::path relativeTo(const std::filesystem::path& folder,
     return near.empty() ? file : near;
 }
 
+// As it is named from the folder where it lies below it, else whole: no way up, which leads
+// elsewhere from the next folder.
+inline std::filesystem::path namedFrom(const std::filesystem::path& folder,
+                                       const std::filesystem::path& file) {
+    const std::filesystem::path near = relativeTo(folder, file);
+    return *near.begin() == ".." ? std::filesystem::absolute(file).lexically_normal() : near;
+}
+
 // A pattern is there while the folder is in which its names are looked for.
 inline bool isThere(std::filesystem::path path) {
     std::error_code gone;

@@ -55,6 +55,7 @@ ordered_json json(const RangeSet& layer) {
 ordered_json json(const Dataset& dataset, const Row& row) {
     ordered_json out{{"step", row.step},
                      {"time", dataset.variable.time->points[row.step].value},
+                     {"date", dataset.variable.time->points[row.step].date},
                      {"points", row.statistics.points},
                      {"missing", row.statistics.missing},
                      {"min", number(row.statistics.min)},
@@ -72,6 +73,7 @@ ordered_json json(const Dataset& dataset, const std::vector<RangeSet>& layers,
     ordered_json out{{"file", dataset.name},
                      {"variable", dataset.variable.name},
                      {"units", dataset.variable.units},
+                     {"timeUnits", dataset.variable.time->units},
                      {"layers", ordered_json::array()}};
     for (const RangeSet& layer : layers) out["layers"].push_back(json(layer));
     if (!dataset.series.recognised.empty()) out["series"] = dataset.series.recognised;

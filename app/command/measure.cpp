@@ -96,6 +96,20 @@ void print(const Subject& subject, const std::vector<Measured>& modes) {
         options.frames, subject.drawnBy, truthText(options), table(modes), bestTable(modes));
 }
 
+// Throws ChoiceError where what is measured would be written over.
+void keepData(const MeasureOptions& options) {
+    for (const std::filesystem::path& out :
+         {std::filesystem::path(options.csv), std::filesystem::path(options.svg),
+          std::filesystem::path(options.png)})
+        for (const std::filesystem::path& file : options.explorer.files) {
+            std::error_code none;
+            if (std::filesystem::equivalent(out, file, none))
+                throw ChoiceError(
+                    fmt::format("{}: expected another file to write to, for this one is measured",
+                                out.string()));
+        }
+}
+
 void writeFiles(const MeasureOptions& options, const std::vector<Measured>& modes,
                 const std::string& title) {
     if (!options.csv.empty()) writeWhole(options.csv, csv(modes));
@@ -110,6 +124,7 @@ void writeFiles(const MeasureOptions& options, const std::vector<Measured>& mode
 }  // namespace
 
 int measureModes(const MeasureOptions& options) {
+    keepData(options);
     // An unknown one is refused before a file is read.
     modesNamed(options.modes,
                {true, mayBeCoarse(options.explorer.footprint), options.explorer.light});
@@ -122,6 +137,13 @@ int measureModes(const MeasureOptions& options) {
     if (!step->canHaveCells())
         throw ChoiceError(
             fmt::format("measure needs the cells between the points: {}", step->whyNoCells()));
+    std::uint64_t selected = 0;
+    for (const LayerChoice& layer : data.explorer.layers)
+        if (layer.visible)
+            selected +=
+                step->count(step->keptPart(layer.motion ? layer.motion->animation : layer.ranges));
+    if (selected == 0)
+        throw ChoiceError("measure needs something to draw: no point is in a range that is shown");
     const DrawingDevice device(options.by);
     const Subject subject{options, data, *step, index, device.name()};
     const render::PlacedPoints placed(step->grid(), data.explorer.scale, data.explorer.map);

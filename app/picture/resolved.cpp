@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "app/choices/choice_text.h"
 #include "app/choices/first_choice.h"
@@ -93,6 +94,31 @@ RangeSet finitePart(const RangeSet& animation, const Extent& data) {
     return within;
 }
 
+// Of data that are classes: a layer each, but for the class that most points have. None where that
+// is one, or more than have colours.
+std::vector<LayerChoice> classLayers(const Steps& sampled) {
+    std::map<double, std::uint64_t> points;
+    for (const auto& [index, step] : sampled) {
+        if (!step->ofCategories()) return {};
+        for (std::uint64_t at = 0; at < step->size() && points.size() <= kLayerColors.size() + 1;) {
+            const timeseries::Number value = step->value(at);
+            if (timeseries::compare(timeseries::toDouble(value), value) != 0)
+                return {};  // of more than 53 bits
+            const std::uint64_t count = step->count(RangeSet(std::vector{Range{{value}, {value}}}));
+            points[timeseries::toDouble(value)] += count;
+            at += count;
+        }
+    }
+    if (points.size() < 3 || points.size() > kLayerColors.size() + 1) return {};
+    points.erase(
+        std::ranges::max_element(points, {}, [](const auto& each) { return each.second; }));
+    std::vector<LayerChoice> layers;
+    for (const auto& [value, count] : points)
+        layers.push_back(
+            {.ranges = RangeSet(std::vector{Range{{value}, {value}}}), .color = {}, .opacity = {}});
+    return layers;
+}
+
 // What of the data it shows, and its style where a map alone was asked for.
 void chooseFirst(LayerChoice& layer, const Steps& sampled) {
     const LayerChoice first = firstChoice(quantilesOf(sampled));
@@ -143,6 +169,7 @@ RangeSet rangesNeeded(const Explorer& e) {
 Explorer resolved(const Explorer& explorer, const Steps& sampled) {
     Explorer e = explorer;
     const Extent data = extentOf(e, sampled);
+    if (e.layers.empty() && !e.noLayers) e.layers = classLayers(sampled);
     if (e.layers.empty() && !e.noLayers) e.layers.push_back({});
     for (std::size_t place = 0; place < e.layers.size(); ++place) {
         LayerChoice& layer = e.layers[place];

@@ -20,11 +20,24 @@ std::string lastError() { return std::generic_category().message(errno); }
 }  // namespace
 
 PartialFile::PartialFile(std::filesystem::path destination) : destination_(std::move(destination)) {
+    // A link stays, and what it leads to is replaced.
+    std::error_code none;
+    target_ = std::filesystem::is_symlink(destination_, none)
+                  ? std::filesystem::canonical(destination_, none)
+                  : destination_;
+    if (none || target_.empty()) target_ = destination_;
+    if (const auto there = std::filesystem::status(target_, none);
+        std::filesystem::exists(there) && !std::filesystem::is_regular_file(there) &&
+        !std::filesystem::is_directory(there)) {  // a device or a pipe is written into
+        stream_.reset(std::fopen(target_.c_str(), "wbe"));
+        if (!stream_) throw ImageError(destination_, "cannot be written: " + lastError());
+        return;
+    }
     // O_EXCL: two programs writing the same picture never share a partial file.
     constexpr int kAttempts = 100;
     int descriptor = -1;
     for (int n = 0; descriptor < 0 && n < kAttempts; ++n) {
-        partial_ = destination_;
+        partial_ = target_;
         partial_ += ".part" + std::to_string(n);
         descriptor = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor < 0 && errno != EEXIST) break;
@@ -49,7 +62,8 @@ void PartialFile::commit() {
     if (std::fclose(stream_.release()) != 0 || hadError) {
         throw ImageError(destination_, "cannot be written: " + lastError());
     }
-    if (::rename(partial_.c_str(), destination_.c_str()) != 0) {
+    if (partial_.empty()) return;
+    if (::rename(partial_.c_str(), target_.c_str()) != 0) {
         throw ImageError(destination_, "cannot be replaced: " + lastError());
     }
     partial_.clear();

@@ -10,7 +10,8 @@
 namespace render {
 
 // Written beside its destination and renamed over it by commit(), so a write that fails or is cut
-// short leaves what was there. Without commit() the destructor removes it.
+// short leaves what was there. Without commit() the destructor removes it. What is no file, as a
+// pipe or /dev/stdout, is written into.
 class PartialFile {
  public:
     // Throws ImageError.
@@ -26,8 +27,8 @@ class PartialFile {
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
-    std::filesystem::path destination_;
-    std::filesystem::path partial_;
+    std::filesystem::path destination_, target_;  // as it was named, and where links lead
+    std::filesystem::path partial_;               // empty where it is written into
     std::unique_ptr<std::FILE, Close> stream_;
 };
 

@@ -154,6 +154,37 @@ TEST(FirstChoice, ATiedBackgroundIsLeftOut) {
         }
 }
 
+// Land of an ocean model whose file names no fill value, at either end: the rest is chosen from.
+TEST(FirstChoice, AValueFarFromAllOthersThatManyHaveIsLeftOut) {
+    for (const double land : {0.0, -999.0, 1e20})
+        for (const double share : {0.25, 0.4}) {
+            const SortedStep step = stepOf(drawn([&](auto& r) {
+                return std::bernoulli_distribution(share)(r)
+                           ? land
+                           : std::normal_distribution<double>(35, 1)(r);
+            }));
+            const LayerChoice layer = choiceFor(step);
+            const auto what = std::to_string(land) + ": " + layer.ranges.text();
+            const timeseries::RangeSet tied(std::vector{timeseries::Range{{land}, {land}}});
+            EXPECT_EQ(step.count(unionOf(std::vector{layer.ranges, tied})),
+                      step.count(layer.ranges) + step.count(tied))
+                << what;
+            EXPECT_NEAR(shareSelected(step, layer), 0.1 * (1 - share), 0.03) << what;
+            expectSensible(step, what);
+        }
+    // A class, a phase: the other values reach as far, or there is nothing between.
+    for (const double other : {0.0, 1.0}) {
+        const SortedStep step = stepOf(drawn([&](auto& r) {
+            const double u = std::uniform_real_distribution<double>(0, 1)(r);
+            return u < 0.6 ? 1 - other : u < 0.9 ? other : (u - 0.9) * 10;
+        }));
+        const timeseries::RangeSet tied(std::vector{timeseries::Range{{other}, {other}}});
+        EXPECT_EQ(step.count(unionOf(std::vector{choiceFor(step).ranges, tied})),
+                  step.count(choiceFor(step).ranges))
+            << other;
+    }
+}
+
 // Rare values are seen by the quantiles' ends alone.
 TEST(FirstChoice, AFewOutlyingPointsAreChosen) {
     for (const double outlier : {-10.0, 4.999, 5.001, 1e9}) {

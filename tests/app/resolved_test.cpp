@@ -6,9 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
+#include <set>
 
 #include "app/choices/choice_text.h"
+#include "app/choices/layer_colors.h"
 #include "tests/support/picture_of_a_ramp.h"
 #include "tests/support/scenes.h"
 
@@ -147,6 +150,42 @@ TEST_F(PictureOfARamp, SeveralLayersHaveDifferentPlainColors) {
         for (std::size_t j = 0; j < i; ++j)
             EXPECT_NE(std::get<glm::dvec3>(*r.layers[i].color),
                       std::get<glm::dvec3>(*r.layers[j].color));
+}
+
+// Of so many points so many: of each class one after the other.
+Explorer firstOfClasses(const std::vector<std::pair<int, std::size_t>>& classes,
+                        bool categories = true) {
+    std::vector<std::uint8_t> values;
+    for (const auto& [value, points] : classes)
+        values.insert(values.end(), points, static_cast<std::uint8_t>(value));
+    timeseries::Field field{std::make_shared<const timeseries::Grid>(std::array{
+                                tests::axis(values.size()), tests::axis(1), tests::axis(1)}),
+                            std::move(values),
+                            {}};
+    field.categories = categories;
+    return resolved({}, {{0, std::make_shared<const SortedStep>(SortedStep::build(field))}});
+}
+
+TEST(FirstLayers, OfClassesAreOneEachButForTheMostCommon) {
+    const Explorer e = firstOfClasses({{0, 50}, {2, 10}, {1, 1}, {255, 20}});
+    ASSERT_EQ(e.layers.size(), 3u);
+    std::set<std::array<double, 3>> colors;
+    const char* const ranges[] = {"1", "2", "255"};
+    for (std::size_t i = 0; i < e.layers.size(); ++i) {
+        EXPECT_EQ(e.layers[i].ranges, RangeSet::parse(ranges[i]));
+        const auto& color = std::get<glm::dvec3>(*e.layers[i].color);
+        colors.insert({color.r, color.g, color.b});
+    }
+    EXPECT_EQ(colors.size(), 3u);
+    // As many as have colours; a mask, and what is no class, are chosen from as ever.
+    std::vector<std::pair<int, std::size_t>> many{{100, 1000}};
+    for (int i = 0; i < static_cast<int>(kLayerColors.size()); ++i) many.emplace_back(i, 10);
+    EXPECT_EQ(firstOfClasses(many).layers.size(), kLayerColors.size());
+    many.emplace_back(200, 10);
+    EXPECT_EQ(firstOfClasses(many).layers.size(), 1u);
+    EXPECT_EQ(firstOfClasses({{0, 50}, {1, 10}}).layers.size(), 1u);
+    EXPECT_EQ(firstOfClasses({{7, 50}}).layers.size(), 1u);
+    EXPECT_EQ(firstOfClasses({{0, 50}, {2, 10}, {1, 1}, {255, 20}}, false).layers.size(), 1u);
 }
 
 TEST_F(PictureOfARamp, AMapOfARangeBeyondTheDataHasItsEndsInOrder) {

@@ -116,5 +116,18 @@ TEST(StartSweep, TakenBackLeavesTheLayersAsTheyWere) {
     EXPECT_FALSE(needsSamples(fromJson(toJson(e, "/"), "/")));
 }
 
+// Else nothing would be left to play.
+TEST(StartSweep, TakenBackWhereValuesAlonePlayedLeavesTimeToPlay) {
+    const SortedStep step = tests::stepOf(tests::cube(kEdge), even);
+    Explorer e;
+    startSweep(e, extentOf(step), step, true);
+    e.layers.push_back({RangeSet::parse("0:1"), glm::dvec3(1), 0.5});
+    e.play.timeMoves = false;
+    removeLayer(e, 1);
+    EXPECT_FALSE(e.play.timeMoves);
+    removeLayer(e, 0);
+    EXPECT_TRUE(e.play.timeMoves);
+}
+
 }  // namespace
 }  // namespace app

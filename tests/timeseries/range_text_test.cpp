@@ -36,6 +36,11 @@ TEST(RangeText, DocumentedFormsAreRead) {
         {"5 \u00b1 2", RangeSet({closed(3_i, 7_i)})},  // as legends have it
         {"3~5", RangeSet({closed(-2.0, 8.0)})},
         {"1.5~0.25", RangeSet({closed(1.25, 1.75)})},
+        {"0.7~0.1", RangeSet({closed(0.6, 0.8)})},  // 0.7 + 0.1 is less in doubles
+        {"1.1~0.2", RangeSet({closed(0.9, 1.3)})},
+        {"7e-1~1E-1", RangeSet({closed(0.6, 0.8)})},
+        {"-3e-01~1e+2", RangeSet({closed(-100.3, 99.7)})},
+        {"1~1e-300", RangeSet({closed(1.0, 1.0)})},
         {"-1.5~0", RangeSet({closed(-1.5, -1.5)})},
         {"min:2", RangeSet({closed(-kInfinity, 2.0)})},
         {"2:max", RangeSet({closed(2.0, kInfinity)})},

@@ -52,14 +52,14 @@ TEST(TimeUnits, FractionsShowTheTimeThatWasMeant) {
 }
 
 TEST(TimeUnits, IntegersBeyondTwoToThe53AreExact) {
-    // Half a millisecond short of a whole one, less a nanosecond: it rounds down. The next double,
-    // 128 ns on, rounds up.
+    // A nanosecond short of a half of a millisecond. Doubles are 128 ns apart there: of those
+    // microseconds are told.
     const std::int64_t ns = (std::int64_t{1'152'921'504'606'499'999});
     const double rounded = std::nextafter(static_cast<double>(ns), 2e18);
-    EXPECT_EQ(date("nanoseconds since 1970-01-01", ns), "2006-07-14 23:58:24.606");
-    EXPECT_EQ(date("nanoseconds since 1970-01-01", rounded), "2006-07-14 23:58:24.607");
+    EXPECT_EQ(date("nanoseconds since 1970-01-01", ns), "2006-07-14 23:58:24.606499999");
+    EXPECT_EQ(date("nanoseconds since 1970-01-01", rounded), "2006-07-14 23:58:24.606500");
     EXPECT_EQ(date("nanoseconds since 1970-01-01", static_cast<std::uint64_t>(ns)),
-              "2006-07-14 23:58:24.606");
+              "2006-07-14 23:58:24.606499999");
 }
 
 TEST(TimeUnits, ZonesShiftTheReference) {
@@ -78,6 +78,39 @@ TEST(TimeUnits, FormsOfTheReference) {
     EXPECT_EQ(date("days since 2000", 0.0), "2000-01-01 00:00:00");
     EXPECT_EQ(date("  hour  since  2000-01-01 24:00:00 ", 0.0), "2000-01-02 00:00:00");
     EXPECT_EQ(date("weeks since 2000-01-01", 1.0), "2000-01-08 00:00:00");
+}
+
+// The grammar of udunits 2: years have four digits where nothing stands between them and the month.
+TEST(TimeUnits, PackedReferences) {
+    EXPECT_EQ(date("hours since 20000102", 0.0), "2000-01-02 00:00:00");
+    EXPECT_EQ(date("hours since 200003", 1.0), "2000-03-01 01:00:00");
+    EXPECT_EQ(date("hours since 20000101T0600", 0.0), "2000-01-01 06:00:00");
+    EXPECT_EQ(date("hours since 20000101 123045.5", 0.0), "2000-01-01 12:30:45.500");
+    EXPECT_EQ(date("hours since 2000-01-01 1230 +0100", 0.0), "2000-01-01 11:30:00");
+    EXPECT_EQ(date("days since 12000-01-01", 0.0), "12000-01-01 00:00:00");
+    for (const char* text : {"hours since 2000010", "hours since 20000", "hours since 20001301",
+                             "hours since 2000010100", "hours since 2000-01-01 123",
+                             "hours since 2000-01-01 2560", "hours since 2000-01-01 12345"})
+        EXPECT_EQ(date(text, 0.0), "not understood") << text;
+}
+
+TEST(TimeUnits, ShorterThanAMillisecondAreTold) {
+    EXPECT_EQ(date("microseconds since 1970-01-01", std::int64_t{0}), "1970-01-01 00:00:00");
+    EXPECT_EQ(date("microseconds since 1970-01-01", 2.0), "1970-01-01 00:00:00.000002");
+    EXPECT_EQ(date("nanoseconds since 1970-01-01", std::int64_t{1'000'000'003}),
+              "1970-01-01 00:00:01.000000003");
+    EXPECT_EQ(date("milliseconds since 1970-01-01", 7.0), "1970-01-01 00:00:00.007");
+    // No digit that the value does not hold: doubles are 128 ns apart there.
+    EXPECT_EQ(date("nanoseconds since 1970-01-01", 1e18), "2001-09-09 01:46:40");
+    EXPECT_EQ(date("nanoseconds since 1970-01-01", 1e18 + 4096), "2001-09-09 01:46:40.000004");
+}
+
+TEST(TimeUnits, MonthsOfThirtyDaysAreTheCalendars) {
+    for (const char* units :
+         {"months since 2000-01-01", "month since 2000-01-01", "Months since 2000-01-01"}) {
+        EXPECT_EQ(date(units, 1.0, Calendar::Day360), "2000-02-01 00:00:00");
+        EXPECT_EQ(date(units, 12.0, Calendar::Day360), "2001-01-01 00:00:00");
+    }
 }
 
 TEST(TimeUnits, YearsAndMonthsAreThoseOfUdunits) {

@@ -126,15 +126,42 @@ Number number(std::string_view text, std::string_view piece) {
     return *n;
 }
 
+// Digits behind the point of a number as it is written: 2 of "1.25", 3 of "1e-3"; 0 of what has
+// none.
+int decimalsOf(std::string_view text) {
+    text = trimmed(text);
+    const std::size_t e = std::min(text.find_first_of("eE"), text.size());
+    int exponent = 0;
+    if (e < text.size()) {
+        const std::size_t sign = text.substr(e + 1).starts_with('+') ? 1 : 0;
+        std::from_chars(text.data() + e + 1 + sign, text.data() + text.size(), exponent);
+    }
+    const std::size_t point = std::min(text.substr(0, e).find('.'), e);
+    const int digits = point < e ? static_cast<int>(e - point) - 1 : 0;
+    return std::max(0, digits - std::clamp(exponent, -400, 400));
+}
+
+// What the decimals that were written give, not the doubles nearest to them: 0.7 + 0.1 is 0.8.
+double decimalSum(double a, double b, int decimals) {
+    const double sum = a + b;
+    const double most =
+        std::max({std::abs(a), std::abs(b), std::abs(sum)}) * std::pow(10, decimals);
+    if (decimals == 0 || !(most < kWholeDoubles / 4)) return sum;  // more digits than doubles have
+    const std::string text = fmt::format("{:.{}f}", sum, decimals);
+    double rounded = sum;
+    std::from_chars(text.data(), text.data() + text.size(), rounded);
+    return rounded;
+}
+
 // Exact for integers: 2^60 ~ 1 has integer ends, and so has 2^60 ~ 1.5, for there are no halves
 // between its values. Past the 64-bit types the ends are doubles.
-Number sum(const Number& a, const Number& b, int sign) {
+Number sum(const Number& a, const Number& b, int sign, int decimals) {
     const auto* delta = std::get_if<double>(&b);
     if (delta && !std::holds_alternative<double>(a) && *delta < kWholeDoubles &&
         std::abs(toDouble(a)) >= kWholeDoubles)
-        return sum(a, static_cast<std::int64_t>(*delta), sign);
+        return sum(a, static_cast<std::int64_t>(*delta), sign, 0);
     if (std::holds_alternative<double>(a) || std::holds_alternative<double>(b))
-        return toDouble(a) + sign * toDouble(b);
+        return decimalSum(toDouble(a), sign * toDouble(b), decimals);
     const auto wide = [](const Number& n) {
         return std::visit([](auto x) { return static_cast<__int128>(x); }, n);
     };
@@ -158,12 +185,13 @@ std::optional<Separator> aroundIn(std::string_view inner) {
 }
 
 Range around(std::string_view inner, Separator sign, std::string_view piece) {
-    const Number centre = number(inner.substr(0, sign.at), piece);
-    const Number delta = number(inner.substr(sign.at + sign.length), piece);
+    const std::string_view c = inner.substr(0, sign.at), d = inner.substr(sign.at + sign.length);
+    const Number centre = number(c, piece), delta = number(d, piece);
+    const int decimals = std::max(decimalsOf(c), decimalsOf(d));
     if (!std::isfinite(toDouble(centre)) || !std::isfinite(toDouble(delta)))
         fail(piece, "c~d needs a finite contour value c and a finite half width d");
     if (toDouble(delta) < 0) fail(piece, "the half width d of c~d is negative");
-    return {{sum(centre, delta, -1)}, {sum(centre, delta, +1)}};
+    return {{sum(centre, delta, -1, decimals)}, {sum(centre, delta, +1, decimals)}};
 }
 
 // ">600", "<= 5": open or closed at its number, without bound on the other side. None without a

@@ -116,6 +116,7 @@ class SortedStep {
     RangeSet keptPart(const RangeSet& ranges) const;
 
     std::uint64_t size() const { return size_; }
+    bool ofCategories() const { return ofCategories_; }
     // Of all points, which puts all in order: a few times what building took.
     Columns columns() const;
     // Of all points, but only those in `runs` may be read: a step may not have put the others in

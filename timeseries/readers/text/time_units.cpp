@@ -62,14 +62,25 @@ struct Cursor {
     }
 };
 
-// "Y-M-D"; a month or day left out is the first, as in udunits.
+// "Y-M-D"; a month or day left out is the first, as in udunits, whose "YYYYMM" and "YYYYMMDD" are
+// dates, too.
 std::optional<CivilDate> takeDate(Cursor& in) {
     CivilDate date;
     const bool negative = in.take('-');
     if (!negative) in.take('+');
+    const std::size_t before = in.rest.size();
     const auto year = in.digits(12);
     if (!year) return std::nullopt;
     date.year = negative ? -*year : *year;
+    const std::size_t length = before - in.rest.size();
+    if (length > 4 && !in.rest.starts_with('-')) {  // packed
+        if (length != 6 && length != 8) return std::nullopt;
+        const std::int64_t month = length == 8 ? *year / 100 : *year;
+        if (length == 8) date.day = static_cast<int>(*year % 100);
+        date.month = static_cast<int>(month % 100);
+        date.year = (negative ? -1 : 1) * (month / 100);
+        return date;
+    }
     for (int* part : {&date.month, &date.day}) {
         if (!in.take('-')) break;
         const auto n = in.digits(2);
@@ -79,12 +90,23 @@ std::optional<CivilDate> takeDate(Cursor& in) {
     return date;
 }
 
-// "h[:m[:s[.f]]]" since midnight. 24:00:00 and the leap second 23:59:60 are told as the next day.
+// "h[:m[:s[.f]]]", or udunits' "hhmm[ss[.f]]", since midnight. 24:00:00 and the leap second
+// 23:59:60 are told as the next day.
 std::optional<std::int64_t> takeClockNs(Cursor& in) {
-    const auto hour = in.digits(2);
+    const std::size_t before = in.rest.size();
+    auto hour = in.digits(6);
+    const std::size_t length = before - in.rest.size();
     std::optional<std::int64_t> minute = 0, second = 0;
     std::int64_t fraction = 0;
-    if (in.take(':')) {
+    if (length == 4 || length == 6) {
+        const std::int64_t packed = length == 6 ? *hour : *hour * 100;
+        hour = packed / 10'000;
+        minute = packed / 100 % 100;
+        second = packed % 100;
+        if (length == 6) fraction = in.fractionNs();
+    } else if (length > 2) {
+        return std::nullopt;
+    } else if (in.take(':')) {
         minute = in.digits(2);
         if (in.take(':')) {
             second = in.digits(2);
@@ -164,6 +186,18 @@ double resolutionNs(const Number& value, std::int64_t unitNs) {
     return (next - std::abs(*d)) * static_cast<double>(unitNs);
 }
 
+// A month is udunits', a twelfth of a year; where a calendar's months are all alike, one of those.
+std::optional<double> secondsOf(std::string_view unit, Calendar calendar) {
+    Cursor in{unit};
+    in.blank();
+    if (calendar == Calendar::Day360 && in.takeWord("MONTH")) {
+        in.take('S');
+        in.blank();
+        if (in.rest.empty()) return 30 * 86400.0;
+    }
+    return unitRatio(std::string(unit), "s");
+}
+
 }  // namespace
 
 bool looksLikeTimeUnits(std::string_view text) {
@@ -174,7 +208,7 @@ bool looksLikeTimeUnits(std::string_view text) {
 std::optional<TimeUnits> TimeUnits::parse(std::string_view text, Calendar calendar) {
     const auto parts = splitSince(text);
     if (!parts) return std::nullopt;
-    const auto seconds = unitRatio(std::string(parts->first), "s");
+    const auto seconds = secondsOf(parts->first, calendar);
     if (!seconds || !(*seconds >= 1e-9) || !(*seconds < 9e9)) return std::nullopt;
 
     Cursor in{parts->second};
@@ -207,18 +241,23 @@ std::string TimeUnits::date(const Number& value) const {
     const auto since = timesUnit(value, unitNs_);
     if (!since) return "";
     // A value of 43831.1 days is a third of a microsecond off: the clock shows no more than the
-    // value holds.
-    const std::int64_t shown = resolutionNs(value, unitNs_) < 1e6 ? 1'000'000 : 1'000'000'000;
+    // value holds, and no more than milliseconds, unless their unit is shorter.
+    const int most = unitNs_ < 1'000 ? 9 : unitNs_ < 1'000'000 ? 6 : 3;
+    const double resolution = resolutionNs(value, unitNs_);
+    int decimals = most;
+    std::int64_t shown = most == 9 ? 1 : most == 6 ? 1'000 : 1'000'000;
+    for (; decimals > 0 && !(resolution < static_cast<double>(shown)); decimals -= 3)
+        shown *= 1'000;
     Wide ns = *since + referenceNs_ + shown / 2;
     Wide days = ns / kDayNs - (ns % kDayNs < 0);
     const auto clock = static_cast<std::int64_t>(ns - days * kDayNs) / shown * shown;
     days += referenceDay_;
     const CivilDate d = civilDate(calendar_, static_cast<std::int64_t>(days));
-    const std::int64_t second = clock / 1'000'000'000, ms = clock / 1'000'000 % 1000;
+    const std::int64_t second = clock / 1'000'000'000, fraction = clock % 1'000'000'000 / shown;
     std::string text =
         fmt::format("{}{:04}-{:02}-{:02} {:02}:{:02}:{:02}", d.year < 0 ? "-" : "",
                     std::abs(d.year), d.month, d.day, second / 3600, second / 60 % 60, second % 60);
-    if (ms != 0) text += fmt::format(".{:03}", ms);
+    if (fraction != 0) text += fmt::format(".{:0{}}", fraction, decimals);
     return text;
 }
 

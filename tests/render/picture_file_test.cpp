@@ -1,0 +1,54 @@
+#include "render/image/picture_file.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "tests/support/files.h"
+
+namespace render {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& to, const std::string& text) {
+    PartialFile file(to);
+    std::fwrite(text.data(), 1, text.size(), file.stream());
+    file.commit();
+}
+
+TEST(PartialFile, ReplacesWhatALinkLeadsTo) {
+    const fs::path folder = tests::freshFolder(), link = folder / "link";
+    tests::writeBytes(folder / "old", "before");
+    fs::create_symlink("old", link);
+    write(link, "after");
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(tests::readBytes(folder / "old"), "after");
+    // One that leads nowhere is replaced itself.
+    fs::create_symlink("nowhere", folder / "loose");
+    write(folder / "loose", "there");
+    EXPECT_EQ(tests::readBytes(folder / "loose"), "there");
+}
+
+TEST(PartialFile, WritesIntoWhatIsNoFile) {
+    const fs::path pipe = tests::freshFolder() / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const int reader =
+        ::open(pipe.c_str(), O_RDWR | O_NONBLOCK);  // who also writes need not wait for a writer
+    ASSERT_GE(reader, 0);
+    write(pipe, "through");
+    EXPECT_TRUE(fs::is_fifo(pipe));
+    char text[16];
+    const auto count = ::read(reader, text, sizeof text);
+    ::close(reader);
+    ASSERT_GT(count, 0);
+    EXPECT_EQ(std::string(text, static_cast<std::size_t>(count)), "through");
+}
+
+}  // namespace
+}  // namespace render
