@@ -21,6 +21,14 @@ TEST(Say, IsUtf8WhateverAFileSays) {
     EXPECT_EQ(tests::readBytes(file), "caf\uFFFD.nc: \uFFFD\x43 Å\n");
 }
 
+TEST(Say, TellsATerminalNothingToObey) {
+    const fs::path file = tests::freshFolder() / "said";
+    std::FILE* const out = std::fopen(file.c_str(), "wb");
+    sayTo(out, "a\t{}b\n", std::string("\x1b[2J\0\r\x7f", 7));
+    std::fclose(out);
+    EXPECT_EQ(tests::readBytes(file), "a\t\uFFFD[2J\uFFFD\uFFFD\uFFFDb\n");
+}
+
 TEST(Say, IsTheOnlyDoor) {
     for (const auto& entry : fs::recursive_directory_iterator(tests::sourceFolder() / "app")) {
         const std::string name = entry.path().filename();

@@ -76,6 +76,9 @@ TEST(Csv, SeparatorsAndTitlesAreThoseOfManyPrograms) {
              "  x   y  z T\n 5 6  7  1\n8 9 1 2  \n",
              "\xEF\xBB\xBF\"x-coordinate\",    \"y-coordinate\", z-coordinate, T\n5, 6, 7, 1\n"
              "8, 9, 1, 2\n",
+             "# of run 7\n# x y z T\n5 6 7 1\n8 9 1 2\n",
+             "#x,y,z,T\r\n5,6,7,1\r\n8,9,1,2\r\n",
+             "# 1 2 3\nx,y,z,T\n5,6,7,1\n8,9,1,2\n",
          }) {
         const auto reader = open(table(text));
         EXPECT_THAT(namesOf(*reader), ElementsAre("T")) << text;
@@ -84,6 +87,9 @@ TEST(Csv, SeparatorsAndTitlesAreThoseOfManyPrograms) {
                   1e-5)
             << text;
     }
+    const auto gaps = open(table("x,y,T,U\n0,1,NA,4\n1,2,5,n/a\n2,1,null,6\n"));
+    EXPECT_THAT(valuesOf<double>(*gaps, "T"), ElementsAre(testing::IsNan(), 5, testing::IsNan()));
+    EXPECT_THAT(valuesOf<double>(*gaps, "U"), ElementsAre(4, testing::IsNan(), 6));
     // Without heights; an index without a title, as pandas writes it.
     const auto flat = open(table(",x,y,T\n0,1,1,4\n1,2,1,5\n2,1,2,6\n"));
     EXPECT_THAT(namesOf(*flat), ElementsAre("column 1", "T"));

@@ -211,6 +211,36 @@ TEST(NetcdfAxes, CoordinatesThatCannotPlacePointsAreCountedAndTold) {
     }
 }
 
+// A region about Greenwich, or the Pacific's seam, in either direction.
+TEST(NetcdfAxes, LongitudesThatBeginAnewGoOn) {
+    const std::pair<std::vector<double>, std::vector<double>> cases[] = {
+        {{300, 320, 340, 0, 20, 40}, {-60, -40, -20, 0, 20, 40}},
+        {{170, 175, -180, -175}, {170, 175, 180, 185}},
+        {{40, 20, 0, 340, 320}, {40, 20, 0, -20, -40}},
+        {{0, 120, 240, 359.5}, {0, 120, 240, 359.5}},
+        // Twice, all around, or no longitudes: by index.
+        {{300, 0, 300, 0}, {0, 1, 2, 3}},
+        {{0, 120, 240, 0}, {0, 1, 2, 3}},
+        {{10, 10, 20}, {0, 1, 2}},
+    };
+    for (const auto& [longitudes, placed] : cases)
+        for (const char* units : {"degrees_east", "m"}) {
+            NetcdfBuilder file("a.nc");
+            const auto y = file.coordinate("lat", 2, "degrees_north"),
+                       x = file.coordinate("lon", longitudes.size(), units);
+            file.variable("v", NC_FLOAT, {y.dimension, x.dimension});
+            file.write(y.variable, evenly(2, 0, 1));
+            file.write(x.variable, longitudes);
+            const auto reader = open(file.close());
+            const bool runs = std::ranges::is_sorted(longitudes) && longitudes.size() != 3;
+            if (units == std::string("degrees_east") || runs) {
+                EXPECT_EQ(reader->variables()[0].grid->axes()[0].coordinates, placed);
+            } else {
+                EXPECT_EQ(reader->variables()[0].grid->axes()[0].units, "index") << longitudes[1];
+            }
+        }
+}
+
 TEST(NetcdfAxes, TwoDimensionalLongitudesAreToldUnlessMeasuredAxesExist) {
     const std::string note =
         "drawn in index space: of its 2-D coordinates lon and lat, no point has a place that is "

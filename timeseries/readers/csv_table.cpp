@@ -63,7 +63,9 @@ class CsvRows {
 };
 
 std::optional<double> numberIn(const std::string& text) {
-    if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
+    const std::string word = text.size() <= 4 ? lower(text) : "";
+    if (text.empty() || word == "na" || word == "n/a" || word == "null")
+        return std::numeric_limits<double>::quiet_NaN();
     return numberOfText<double>(text);
 }
 
@@ -97,15 +99,30 @@ std::optional<std::size_t> coordinateOf(const std::string& name) {
     return std::nullopt;
 }
 
-// Where the titles begin: behind what is a comment.
+// Nothing but numbers.
+bool isNumbers(std::string_view line) {
+    constexpr std::string_view kBetween = ",; \t\r";
+    std::size_t numbers = 0;
+    for (std::size_t at = 0; (at = line.find_first_not_of(kBetween, at)) != line.npos; ++numbers) {
+        const std::size_t end = std::min(line.find_first_of(kBetween, at), line.size());
+        if (!numberIn(std::string(line.substr(at, end - at)))) return false;
+        at = end;
+    }
+    return numbers > 0;
+}
+
+// Where the titles begin: behind what is a comment, or in its last line, where numbers follow (as
+// numpy writes titles).
 std::size_t beginOf(std::string_view start) {
-    std::size_t at = 0;
+    std::size_t at = 0, last = start.npos;
     while (at < start.size() && (start[at] == '#' || start[at] == '\n' || start[at] == '\r')) {
         const auto line = start.find('\n', at);
         if (line == start.npos) return start.size();
+        if (start[at] == '#') last = at;
         at = line + 1;
     }
-    return at;
+    if (last == start.npos || !isNumbers(start.substr(at, start.find('\n', at) - at))) return at;
+    return std::min(start.find_first_not_of("# \t", last), at);
 }
 
 bool isText(std::string_view start) {

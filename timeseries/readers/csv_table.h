@@ -1,5 +1,6 @@
 // Tables of numbers as text, by libcsv: the columns that a first line names, separated by commas,
-// semicolons, tabs or blanks. Lines before it that begin with # are passed over.
+// semicolons, tabs or blanks. Lines before it that begin with # are passed over, but for the last,
+// where it names the columns itself.
 #pragma once
 
 #include <array>
@@ -28,7 +29,8 @@ struct CsvHeader {
 // numbers.
 std::optional<CsvHeader> csvHeaderOf(std::string_view start);
 
-// [column][row], none of text; what stands for nothing ("", "nan") is NaN. Throws FileError.
+// [column][row], none of text; what stands for nothing ("", "nan", "NA", "null") is NaN. Throws
+// FileError.
 std::vector<std::vector<double>> readCsv(const std::filesystem::path& path,
                                          const CsvHeader& header);
 
