@@ -142,8 +142,6 @@ int measureModes(const MeasureOptions& options) {
         if (layer.visible)
             selected +=
                 step->count(step->keptPart(layer.motion ? layer.motion->animation : layer.ranges));
-    if (selected == 0)
-        throw ChoiceError("measure needs something to draw: no point is in a range that is shown");
     const DrawingDevice device(options.by);
     const Subject subject{options, data, *step, index, device.name()};
     const render::PlacedPoints placed(step->grid(), data.explorer.scale, data.explorer.map);
@@ -162,6 +160,8 @@ int measureModes(const MeasureOptions& options) {
         say("{}\n", jsonText(json(subject, modes), 2));
     else
         print(subject, modes);
+    if (selected == 0 && !options.json)
+        say("note: no point is in a range that is shown: there was nothing to measure\n");
     writeFiles(options, modes, subject.title());
     return 0;
 }

@@ -6,7 +6,8 @@ if(NOT code EQUAL 0)
   fail("count failed")
 endif()
 
-expectMembers("${out}" file STRING variable STRING units STRING layers ARRAY steps ARRAY)
+expectMembers("${out}" file STRING variable STRING units STRING timeUnits STRING layers ARRAY
+              steps ARRAY)
 string(JSON layerCount LENGTH "${out}" layers)
 if(NOT layerCount EQUAL ${LAYERS})
   fail("${layerCount} layers, expected ${LAYERS}")
@@ -25,7 +26,7 @@ endif()
 math(EXPR last "${STEPS} - 1")
 foreach(i RANGE ${last})
   string(JSON step GET "${out}" steps ${i})
-  expectMembers("${step}" step NUMBER time NUMBER points NUMBER missing NUMBER min "${BOUND}"
+  expectMembers("${step}" step NUMBER time NUMBER date STRING points NUMBER missing NUMBER min "${BOUND}"
                 max "${BOUND}" selected NUMBER percent NUMBER layers ARRAY)
   string(JSON layerCount LENGTH "${step}" layers)
   if(NOT layerCount EQUAL ${LAYERS})
