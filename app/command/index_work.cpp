@@ -104,10 +104,8 @@ int tellIndexed(const IndexedSteps& done, const StepStore& store) {
     if (done.lost > 0)
         sayTo(stderr,
               "isochron: {} has no room for all of them: it takes {} (a tenth of its disk, 64 GiB "
-              "at most), for "
-              "which {} of these steps had to go; --cache names another folder, --beside writes "
-              "beside the "
-              "data, with no such limit\n",
+              "at most), for which {} of these steps had to go; --cache names another folder, "
+              "--beside writes beside the data, with no such limit\n",
               store.folder().string(), megabytesText(store.budget()), withCommas(done.lost));
     return done.failed + done.lost == 0 ? 0 : 1;
 }

@@ -98,9 +98,7 @@ void print(const Subject& subject, const std::vector<Measured>& modes) {
 
 // Throws ChoiceError where what is measured would be written over.
 void keepData(const MeasureOptions& options) {
-    for (const std::filesystem::path& out :
-         {std::filesystem::path(options.csv), std::filesystem::path(options.svg),
-          std::filesystem::path(options.png)})
+    for (const std::filesystem::path& out : {options.csv, options.svg, options.png})
         for (const std::filesystem::path& file : options.explorer.files) {
             std::error_code none;
             if (std::filesystem::equivalent(out, file, none))

@@ -20,12 +20,12 @@ std::string lastError() { return std::generic_category().message(errno); }
 }  // namespace
 
 PartialFile::PartialFile(std::filesystem::path destination) : destination_(std::move(destination)) {
-    // A link stays, and what it leads to is replaced.
+    // A link stays, and what it leads to is replaced; one that leads nowhere is replaced itself.
     std::error_code none;
-    target_ = std::filesystem::is_symlink(destination_, none)
-                  ? std::filesystem::canonical(destination_, none)
-                  : destination_;
-    if (none || target_.empty()) target_ = destination_;
+    target_ = destination_;
+    if (std::filesystem::is_symlink(destination_, none))
+        if (auto led = std::filesystem::canonical(destination_, none); !none)
+            target_ = std::move(led);
     if (const auto there = std::filesystem::status(target_, none);
         std::filesystem::exists(there) && !std::filesystem::is_regular_file(there) &&
         !std::filesystem::is_directory(there)) {  // a device or a pipe is written into

@@ -29,9 +29,13 @@ std::optional<AxisKind> byAxis(const NcVariable& v) {
     return std::nullopt;
 }
 
-std::optional<AxisKind> byStandardName(const NcVariable& v) {
+std::string standardName(const NcVariable& v) {
     const std::string all = v.text("standard_name");
-    const std::string name = all.substr(0, all.find(' '));  // modifiers follow a blank
+    return all.substr(0, all.find(' '));  // modifiers follow a blank
+}
+
+std::optional<AxisKind> byStandardName(const NcVariable& v) {
+    const std::string name = standardName(v);
     if (isOneOf(name, {"longitude", "grid_longitude", "projection_x_coordinate",
                        "projection_x_angular_coordinate"}))
         return X;
@@ -51,12 +55,15 @@ std::optional<AxisKind> byStandardName(const NcVariable& v) {
     return std::nullopt;
 }
 
+bool isInDegreesEast(const NcVariable& v) {
+    return isOneOf(lower(v.text("units")),
+                   {"degrees_east", "degree_east", "degree_e", "degrees_e", "degreee", "degreese"});
+}
+
 std::optional<AxisKind> byUnits(const NcVariable& v) {
     const std::string units = lower(v.text("units"));
     // CF 1.10, sections 4.1 and 4.2.
-    if (isOneOf(units,
-                {"degrees_east", "degree_east", "degree_e", "degrees_e", "degreee", "degreese"}))
-        return X;
+    if (isInDegreesEast(v)) return X;
     if (isOneOf(units,
                 {"degrees_north", "degree_north", "degree_n", "degrees_n", "degreen", "degreesn"}))
         return Y;
@@ -164,6 +171,10 @@ bool tellsAnAxis(const NcVariable& variable) {
 }
 
 }  // namespace
+
+bool isLongitude(const NcVariable& coordinate) {
+    return isInDegreesEast(coordinate) || standardName(coordinate) == "longitude";
+}
 
 std::optional<AxisKind> kindByAttributes(const NcVariable& coordinate) {
     if (const auto kind = byAxis(coordinate)) return kind;

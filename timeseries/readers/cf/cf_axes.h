@@ -19,6 +19,8 @@ enum class AxisKind { X, Y, Z, T, List, Other };
 // they tell nothing.
 std::optional<AxisKind> kindByAttributes(const NcVariable& coordinate);
 std::optional<AxisKind> kindByName(std::string_view name);
+// Degrees along the equator, by its units (CF 1.10, section 4.2) or its standard name.
+bool isLongitude(const NcVariable& coordinate);
 
 // Positions in NcVariable::dimensions.
 struct Roles {

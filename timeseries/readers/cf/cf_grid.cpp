@@ -30,12 +30,6 @@ bool measured(const NcVariable* coordinate) {
     return units.starts_with("deg") || units.starts_with("rad") || sameDimension(units, "m");
 }
 
-bool isLongitude(const NcVariable& coordinate) {
-    const std::string units = lower(coordinate.text("units"));
-    return coordinate.text("standard_name") == "longitude" || units.starts_with("degrees_e") ||
-           units.starts_with("degree_e");
-}
-
 // Longitudes that begin anew once, as 300 to 359 and then 0 to 40, less than once around: they go
 // on.
 void goOnAcrossTheSeam(std::vector<double>& longitudes) {

@@ -242,10 +242,9 @@ std::string TimeUnits::date(const Number& value) const {
     if (!since) return "";
     // A value of 43831.1 days is a third of a microsecond off: the clock shows no more than the
     // value holds, and no more than milliseconds, unless their unit is shorter.
-    const int most = unitNs_ < 1'000 ? 9 : unitNs_ < 1'000'000 ? 6 : 3;
+    int decimals = unitNs_ < 1'000 ? 9 : unitNs_ < 1'000'000 ? 6 : 3;
+    std::int64_t shown = decimals == 9 ? 1 : decimals == 6 ? 1'000 : 1'000'000;
     const double resolution = resolutionNs(value, unitNs_);
-    int decimals = most;
-    std::int64_t shown = most == 9 ? 1 : most == 6 ? 1'000 : 1'000'000;
     for (; decimals > 0 && !(resolution < static_cast<double>(shown)); decimals -= 3)
         shown *= 1'000;
     Wide ns = *since + referenceNs_ + shown / 2;
