@@ -4,6 +4,7 @@
 #include <sys/sysinfo.h>
 
 #include <cstdint>
+#include <cstdlib>
 
 #include "timeseries/together.h"
 
@@ -20,12 +21,6 @@ bool muchIsFree(std::size_t bytes) {
     return sysinfo(&now) == 0 && bytes <= now.freeram * std::size_t{now.mem_unit} / 2;
 }
 
-bool isLarge(std::size_t bytes) { return bytes >= 4 * kLargePage; }
-
-std::align_val_t alignmentOf(std::size_t bytes) {
-    return std::align_val_t{isLarge(bytes) ? kLargePage : 128};
-}
-
 }  // namespace
 
 void* takePages(std::size_t bytes, Filled filled) {
@@ -37,9 +32,11 @@ void* takePages(std::size_t bytes, Filled filled) {
         (void)madvise(at, bytes, MADV_NOHUGEPAGE);
         return at;
     }
-    void* const at = ::operator new(bytes, alignmentOf(bytes));
+    const bool isLarge = bytes >= kWorthLargePages;
+    void* at = nullptr;
+    if (posix_memalign(&at, isLarge ? kLargePage : 128, bytes) != 0) throw std::bad_alloc();
     // A wish; where it is not granted, pages are small.
-    if (isLarge(bytes) && muchIsFree(bytes))
+    if (isLarge && muchIsFree(bytes))
         (void)madvise(at, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
     return at;
 }
@@ -60,7 +57,7 @@ void givePages(void* at, std::size_t bytes, Filled filled) noexcept {
     if (filled == Filled::Sparsely)
         munmap(at, bytes);
     else
-        ::operator delete(at, alignmentOf(bytes));
+        std::free(at);
 }
 
 }  // namespace timeseries

@@ -16,13 +16,17 @@ enum class Filled {
     Sparsely  // or once, which large pages would not be worth; it may be larger than the memory
 };
 
-// Aligned to two cache lines. Throws std::bad_alloc.
+// Less is not worth large pages.
+inline constexpr std::size_t kWorthLargePages = std::size_t{4} << 20;
+
+// Aligned to two cache lines; what is mostly filled is what std::free() takes. Throws
+// std::bad_alloc.
 void* takePages(std::size_t bytes, Filled filled = Filled::Mostly);
 // As they were taken.
 void givePages(void* at, std::size_t bytes, Filled filled = Filled::Mostly) noexcept;
 
 // Asks the system for memory that will all be written, on all threads: one waits longer for its
-// pages than for what it writes. Small ones: large ones may have to be made first (measured).
+// pages than for what it writes.
 void populate(void* at, std::size_t bytes);
 
 // REQUIRES: it is empty.
