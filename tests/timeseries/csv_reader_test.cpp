@@ -127,6 +127,27 @@ TEST(Csv, WhatIsWrongIsToldWithItsRow) {
         EXPECT_THAT(refusalOf(table(text)), HasSubstr(told)) << text;
 }
 
+// Neighbours there are one double.
+TEST(Csv, WholeNumbersBeyondDoublesAreThemselves) {
+    const auto reader =
+        openReader(std::array{table("x,y,z,id,key,half\n0,0,0,9007199254740993,1,1\n"
+                                    "1,0,0,-9007199254740992,NA,2\n"
+                                    "0,1,0,3,18446744073709551615,0.5\n"
+                                    "0,0,1,NA,18446744073709551614,9007199254740993\n")});
+    EXPECT_THAT(valuesOf<std::int64_t>(*reader, "id"),
+                ElementsAre(9007199254740993, -9007199254740992, 3, 0));
+    EXPECT_THAT(reader->read(0, 0).missing, ElementsAre(false, false, false, true));
+    EXPECT_THAT(valuesOf<std::uint64_t>(*reader, "key"),
+                ElementsAre(1u, 0u, 18446744073709551615u, 18446744073709551614u));
+    EXPECT_EQ(valuesOf<double>(*reader, "half")[3], 9007199254740992.0) << "not all are whole";
+}
+
+TEST(Csv, LinesWithoutRowsMayStandAnywhere) {
+    const auto reader =
+        openReader(std::array{table("x,y,z,T\n\n\r\n0,0,0,1\n1,0,0,2\n\n0,1,0,3\n0,0,1,4\n\n")});
+    EXPECT_THAT(valuesOf<double>(*reader, "T"), ElementsAre(1, 2, 3, 4));
+}
+
 // Also numbers of many digits, quotes, and what is no text.
 TEST(Csv, FilesCutOrDamagedAnywhereAreReadOrRefused) {
     const auto path =

@@ -94,6 +94,42 @@ TEST(Fits, PixelsWithoutStepsAreCountedAndTurnedAxesAreTold) {
     EXPECT_EQ(axes[2].coordinates[1] - axes[2].coordinates[0], 2000);
 }
 
+// CTYPE's last three letters (FITS 4.0, table 26).
+TEST(Fits, AxesThatAreNotEvenAreUnevenOrCounted) {
+    const auto placed = [](const char* type) {
+        return openBytes(slab({fmt::format("CTYPE3  = '{}'", type), "CRVAL3  = 100.0",
+                               "CDELT3  = 10.0", "CRPIX3  = 1.0"}));
+    };
+    const auto log = placed("WAVE-LOG");
+    const auto& axis = log->variables()[0].grid->axes()[2];
+    EXPECT_EQ(axis.name, "WAVE");
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(axis.coordinates[i], 100 * std::exp(0.1 * static_cast<double>(i)), 1e-12);
+    for (const char* type : {"WAVE-TAB", "VOPT-F2W", "WAVE-GRI"}) {
+        const auto counted = placed(type);
+        EXPECT_EQ(counted->variables()[0].grid->axes()[2].units, "index") << type;
+        EXPECT_THAT(counted->variables()[0].notes, testing::Contains(HasSubstr(type)));
+    }
+    EXPECT_THAT(placed("FREQ-LSR")->variables()[0].grid->axes()[2].coordinates,
+                ElementsAre(100, 110, 120, 130))
+        << "of an older convention, even";
+}
+
+TEST(Fits, AxesMayBeOfEachOthersCoordinates) {
+    const auto reader = openBytes(
+        slab({"CTYPE1  = 'XX'", "CTYPE2  = 'YY'", "PC1_1   = 0.0", "PC2_2   = 0.0", "PC1_2   = 1.0",
+              "PC2_1   = -1.0", "CDELT1  = 2.0", "CDELT2  = 3.0", "CUNIT1  = 'm'", "CUNIT2  = 's'",
+              "CRVAL1  = 10.0", "CRVAL2  = 20.0", "CRPIX1  = 1.0", "CRPIX2  = 1.0"}));
+    const auto& axes = reader->variables()[0].grid->axes();
+    EXPECT_EQ(axes[0].name, "YY");
+    EXPECT_EQ(axes[0].units, "s");
+    EXPECT_THAT(axes[0].coordinates, ElementsAre(20, 17));
+    EXPECT_EQ(axes[1].name, "XX");
+    EXPECT_EQ(axes[1].units, "m");
+    EXPECT_THAT(axes[1].coordinates, ElementsAre(10, 12, 14));
+    EXPECT_THAT(reader->variables()[0].notes, testing::Each(testing::Not(HasSubstr("turned"))));
+}
+
 template <typename T, typename Stored>
 void expectValues(int bitpix, const std::vector<std::string>& more, double zero) {
     std::vector<Stored> stored = ramp<Stored>(24);

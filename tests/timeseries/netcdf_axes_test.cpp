@@ -290,6 +290,54 @@ TEST(NetcdfAxes, TheNearestGroupAroundAVariableHasItsCoordinates) {
     EXPECT_EQ(axes.coordinateOf(header.variables[4], 0), &header.variables[0]);
 }
 
+TEST(NetcdfAxes, NamesAreLookedForWhereTheySay) {
+    EXPECT_THAT(namesMeant("z", "a/b"), ElementsAre("a/b/z", "a/z", "z"));
+    EXPECT_THAT(namesMeant("c/z", "a"), ElementsAre("a/c/z", "c/z"));
+    EXPECT_THAT(namesMeant("z", ""), ElementsAre("z"));
+    EXPECT_THAT(namesMeant("/z", "a/b"), ElementsAre("z"));
+    EXPECT_THAT(namesMeant("/c/z", "a/b"), ElementsAre("c/z"));
+    EXPECT_THAT(namesMeant("./z", "a/b"), ElementsAre("a/b/z"));
+    EXPECT_THAT(namesMeant("../z", "a/b"), ElementsAre("a/z"));
+    EXPECT_THAT(namesMeant("../../c/z", "a/b"), ElementsAre("c/z"));
+    EXPECT_THAT(namesMeant("../../../z", "a/b"), IsEmpty());
+}
+
+// Another group's has the same dimension, and another height.
+TEST(NetcdfAxes, CoordinatesMayBeNamedByTheirPaths) {
+    NetcdfBuilder file("a.nc");
+    const std::array dimensions{file.dimension("n", 2), file.dimension("y", 2),
+                                file.dimension("x", 3)};
+    const auto groupOf = [&](const char* name) {
+        int id = 0;
+        NetcdfBuilder::check(nc_def_grp(file.id(), name, &id));
+        return id;
+    };
+    const auto variableIn = [&](int group, const char* name, int rank) {
+        int id = 0;
+        NetcdfBuilder::check(nc_def_var(group, name, NC_DOUBLE, rank, dimensions.data(), &id));
+        return id;
+    };
+    const auto say = [](int group, int variable, const char* name, const std::string& text) {
+        NetcdfBuilder::check(nc_put_att_text(group, variable, name, text.size(), text.data()));
+    };
+    for (const auto& [name, first] : {std::pair("A", 5.0), std::pair("B", 105.0)}) {
+        const int group = groupOf(name), depth = variableIn(group, "depth", 1);
+        say(group, depth, "standard_name", "depth");
+        say(group, depth, "units", "m");
+        const std::array<double, 2> at{first, first + 5};
+        NetcdfBuilder::check(nc_put_var_double(group, depth, at.data()));
+    }
+    for (const auto& [name, coordinate] :
+         {std::pair("absolute", "/B/depth"), std::pair("relative", "../B/depth")}) {
+        const int group = groupOf(name);
+        say(group, variableIn(group, "T", 3), "coordinates", coordinate);
+    }
+    const auto reader = open(file.close());
+    ASSERT_EQ(reader->variables().size(), 2u);
+    for (const Variable& variable : reader->variables())
+        EXPECT_THAT(variable.grid->axes()[2].coordinates, ElementsAre(105, 110)) << variable.name;
+}
+
 TEST(NetcdfAxes, GroupsSeeTheDimensionsAroundThem) {
     NetcdfBuilder file("a.nc");
     const auto y = file.coordinate("lat", 2, "degrees_north"),

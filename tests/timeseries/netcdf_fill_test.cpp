@@ -116,6 +116,22 @@ TEST(NetcdfFill, ValidRangeIsInStoredValuesUnlessItHasTheScalesType) {
     EXPECT_THAT(open(unpacked)->read(0, 0).missing, ElementsAre(true, false, false, true));
 }
 
+// Of floats that doubles unpack, a range of doubles is wider than what is stored; of floats that
+// floats unpack, one of any type is not of the scale's.
+TEST(NetcdfFill, ValidRangeOfScaledFloatsIsInTheWiderType) {
+    const auto missingOf = [](auto scale) {
+        return open(plane<float>("a.nc", {1, 2, 4, 8},
+                                 [&](auto& file, int v) {
+                                     file.number(v, "scale_factor", scale);
+                                     file.number(v, "valid_range", std::vector<double>{4, 10});
+                                 }))
+            ->read(0, 0)
+            .missing;
+    };
+    EXPECT_THAT(missingOf(2.0), ElementsAre(true, false, false, true)) << "2, 4, 8, 16";
+    EXPECT_THAT(missingOf(2.0f), ElementsAre(true, true, false, false)) << "1, 2, 4, 8";
+}
+
 TEST(NetcdfFill, DefaultFillIsMissingExceptInBytes) {
     const auto shorts =
         plane<std::int16_t>("a.nc", {NC_FILL_SHORT, -32766, -32768, 1}, [](auto&, int) {});

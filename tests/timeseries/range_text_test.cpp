@@ -194,6 +194,19 @@ TEST(RangeText, OtherSpellingsOfARangeAreAnsweredWithTheRightOne) {
         EXPECT_THAT(refusal(text), testing::StartsWith("read as")) << text;
 }
 
+// As doubles they would be -2^63, which is a value; above, 2^64 is none.
+TEST(RangeText, WhatIsJustBelowAllWholeNumbersIsNoneOfThem) {
+    for (const char* text :
+         {"-9223372036854775809", "-9223372036854776000", "-9223372036854775809.0"})
+        EXPECT_EQ(refusal(text), fmt::format("range '{0}': '{0}' is below all whole numbers of 64 "
+                                             "bits: write min, or an exponent",
+                                             text));
+    for (const char* text :
+         {"-9223372036854775808", "-9223372036854775808.0", "-9223372036854775808:0",
+          "-9.223372036854775809e18", "-9223372036854777000"})
+        EXPECT_THAT(refusal(text), testing::StartsWith("read as")) << text;
+}
+
 TEST(RangeText, UnitsAreLeftOut) {
     const auto told = [](const std::string& range, const char* end, const char* number) {
         return fmt::format("range '{}': '{}' is not a number: units are left out, write {}", range,

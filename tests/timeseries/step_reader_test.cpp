@@ -150,7 +150,7 @@ TEST(StepReader, DamageBehindTheHeaderIsToldWhereItIsRead) {
         (void)made->columns();
         FAIL() << "nothing was told";
     } catch (const std::exception& error) {
-        EXPECT_THAT(error.what(), HasSubstr("u.isostep is a damaged index"));
+        EXPECT_THAT(error.what(), HasSubstr("u.isostep is a damaged sorted step"));
     }
     const auto reader = openReader(std::span(&path, 1));
     EXPECT_THROW((void)reader->read(0, 0), FileError);

@@ -18,8 +18,24 @@ TEST(TimeUnits, HoursOfAClimatologyStayInYearZero) {
     EXPECT_EQ(date("hours since 0000-01-01 00:00:00", 366.0), "0000-01-16 06:00:00");
     EXPECT_EQ(date("days since 0000-01-01", 59.0), "0000-02-29 00:00:00");
     EXPECT_EQ(date("days since 0000-01-01", 366.0), "0001-01-01 00:00:00");
-    EXPECT_EQ(date("days since 0000-01-01", -1.0), "-0001-12-31 00:00:00");
-    EXPECT_EQ(date("days since -4712-01-01 12:00", 2451545.0), "2000-01-01 12:00:00");
+    EXPECT_EQ(date("days since 0000-01-01", -1.0), "-0002-12-31 00:00:00");
+}
+
+// Of the mixed and the Julian calendar, as CF and udunits have them: Julian days count from 4713
+// BC.
+TEST(TimeUnits, TheYearBefore1IsMinus1WhereThereIsNoYear0) {
+    EXPECT_EQ(date("days since -4713-01-01 12:00", 2451545.0), "2000-01-01 12:00:00");
+    EXPECT_EQ(date("days since -4713-01-01 12:00", 2451545.0, Calendar::Julian),
+              "1999-12-19 12:00:00");
+    EXPECT_EQ(date("days since -1-12-31", 1.0), "0001-01-01 00:00:00");
+    EXPECT_EQ(date("days since -4713-01-01", 0.0), "-4713-01-01 00:00:00");
+    EXPECT_EQ(date("days since 0001-01-01", -1.0), "-0001-12-31 00:00:00");
+    EXPECT_EQ(date("days since -0001-12-31", -365.0), "-0001-01-01 00:00:00") << "1 BC was leap";
+    EXPECT_EQ(date("days since -0001-12-31", -366.0), "-0002-12-31 00:00:00");
+    for (const Calendar calendar : {Calendar::ProlepticGregorian, Calendar::NoLeap}) {
+        EXPECT_EQ(date("days since 0001-01-01", -1.0, calendar), "0000-12-31 00:00:00");
+        EXPECT_EQ(date("days since -1-12-31", 1.0, calendar), "0000-01-01 00:00:00");
+    }
 }
 
 TEST(TimeUnits, EachCalendarCountsItsOwnDays) {

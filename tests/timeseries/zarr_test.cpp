@@ -270,7 +270,11 @@ TEST(Zarr, ShardsHoldChunksWhereTheirIndexSays) {
 
 TEST(Zarr, ChunksThatAreNotThereAreTheFill) {
     for (const auto& [fill, filled] : std::vector<std::pair<std::string, float>>{
-             {"null", 0}, {"-3.5", -3.5f}, {"7", 7}, {"\"Infinity\"", HUGE_VALF}}) {
+             {"null", 0},
+             {"-3.5", -3.5f},
+             {"7", 7},
+             {"\"Infinity\"", HUGE_VALF},
+             {"3.4028235e38", std::numeric_limits<float>::max()}}) {  // a little more, as a double
         const float value = filled;
         Layout layout = kLayout;
         layout.isWritten = [](const Lengths& chunk) { return chunk != Lengths{0, 1, 0, 1}; };

@@ -1,8 +1,10 @@
 // A number exactly as a user, a file or a field states it: no integer passes through a double.
 #pragma once
 
+#include <cmath>
 #include <compare>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -21,6 +23,19 @@ Number numberOf(T value) {
     } else {
         return static_cast<std::int64_t>(value);
     }
+}
+
+// The nearest T as IEEE 754 rounds: the largest one up to half a step beyond it (15 digits of it
+// are more), then infinity.
+template <typename T>
+T nearestFloat(double value) {
+    using Limits = std::numeric_limits<T>;
+    constexpr auto greatest = static_cast<double>(Limits::max());
+    if constexpr (std::is_same_v<T, double>) return value;
+    if (!(std::abs(value) > greatest)) return static_cast<T>(value);
+    const double halfStep = std::ldexp(1.0, Limits::max_exponent - Limits::digits - 1);
+    const T most = std::abs(value) - greatest < halfStep ? Limits::max() : Limits::infinity();
+    return std::copysign(most, static_cast<T>(std::signbit(value) ? -1 : 1));
 }
 
 // The mathematical order of the two numbers, exact across types (2^60 + 1 as int64 is greater than

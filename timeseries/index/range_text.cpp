@@ -123,6 +123,11 @@ Number number(std::string_view text, std::string_view piece) {
     if (d && std::abs(*d) >= kWholeDoubles && hasFraction(text) && !wholePart(text))
         fail(piece,
              fmt::format("'{}' has a fraction, and values so large have none: leave it out", text));
+    // As a double it would be the least of them, which it is not.
+    if (d && *d == -0x1p63 && text.find_first_of("eE") == text.npos)
+        fail(piece,
+             fmt::format("'{}' is below all whole numbers of 64 bits: write min, or an exponent",
+                         text));
     return *n;
 }
 

@@ -43,7 +43,7 @@ constexpr std::uint64_t kMostIdsBytes = 64 + 6 * kStepBlock, kMostKeysBytes = 64
 }  // namespace
 
 void StepFile::damaged(const std::string& what) const {
-    throw DamagedStepError(fmt::format("{} is a damaged index: {}", name(), what));
+    throw DamagedStepError(fmt::format("{} is a damaged sorted step: {}", name(), what));
 }
 
 StepFile::StepFile(std::unique_ptr<const ByteSource> bytes) : bytes_(std::move(bytes)) {

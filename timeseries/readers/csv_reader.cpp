@@ -31,7 +31,8 @@ class CsvReader final : public Reader {
     std::span<const std::filesystem::path> files() const override { return paths_; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t) override {
-        return {.grid = grid_, .values = columns_[sources_[variable]], .missing = {}};
+        const CsvNumbers& column = columns_[sources_[variable]];
+        return {.grid = grid_, .values = column.values, .missing = column.missing};
     }
 
  private:
@@ -39,12 +40,15 @@ class CsvReader final : public Reader {
         throw FileError(fmt::format("{}: {}", paths_[0].string(), what));
     }
     void place(const CsvHeader& header) {
-        std::vector<glm::dvec3> at(columns_[header.places[0].value()].size(), glm::dvec3(0));
+        const auto doubles = [&](std::size_t i) -> auto& {
+            return std::get<std::vector<double>>(columns_[i].values);
+        };
+        std::vector<glm::dvec3> at(doubles(header.places[0].value()).size(), glm::dvec3(0));
         auto axes = spaceAxes();
         for (std::size_t c = 0; c < 3; ++c) {
             if (!header.places[c]) continue;
             axes[c].units = header.columns[*header.places[c]].units;
-            auto& column = columns_[*header.places[c]];
+            auto& column = doubles(*header.places[c]);
             for (std::size_t i = 0; i < at.size(); ++i) at[i][static_cast<int>(c)] = column[i];
             column = {};
         }
@@ -59,11 +63,13 @@ class CsvReader final : public Reader {
         const auto time = std::make_shared<const TimeAxis>(TimeAxis{
             .name = "step", .units = "", .calendar = "", .points = {{0, ""}}, .counted = true});
         for (std::size_t i = 0; i < columns_.size(); ++i) {
-            if (columns_[i].empty()) continue;  // coordinates, text
+            const Values& values = columns_[i].values;
+            if (std::visit([](const auto& v) { return v.empty(); }, values))
+                continue;  // coordinates, text
             Variable variable;
             variable.name = header.columns[i].name;
             variable.units = header.columns[i].units;
-            variable.type = ValueType::F64;
+            variable.type = static_cast<ValueType>(values.index());
             variable.storedAs = "text";
             variable.grid = grid_;
             variable.time = time;
@@ -75,7 +81,7 @@ class CsvReader final : public Reader {
     }
 
     std::vector<std::filesystem::path> paths_;
-    std::vector<std::vector<double>> columns_;  // [column][row]; none of coordinates
+    std::vector<CsvNumbers> columns_;  // none of coordinates
     std::shared_ptr<const Grid> grid_;
     std::vector<Variable> variables_;
     std::vector<std::size_t> sources_;  // columns

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -160,8 +162,9 @@ std::optional<CsvHeader> csvHeaderOf(std::string_view whole) {
                     title.empty() ? fmt::format("column {}", header.columns.size() + 1) : title));
             return true;
         });
-        // The second line may be cut where the beginning ends.
-        const auto second = titles.find('\n', line + 1);
+        // The first row, perhaps below lines without any; it may be cut where the beginning ends.
+        const auto row = titles.find_first_not_of("\r\n", line);
+        const auto second = titles.find('\n', row);
         table.take(titles.substr(0, second == titles.npos ? titles.size() : second + 1));
         if (second == titles.npos) table.end();
         std::ptrdiff_t others = 0;
@@ -178,31 +181,17 @@ std::optional<CsvHeader> csvHeaderOf(std::string_view whole) {
     return std::nullopt;
 }
 
-std::vector<std::vector<double>> readCsv(const std::filesystem::path& path,
-                                         const CsvHeader& header) {
+namespace {
+
+// `use` gets each row below the titles, and its number counted from theirs, which is 1, and tells
+// what is wrong with it, or "". Throws FileError.
+void forRows(const std::filesystem::path& path, char separator,
+             const std::function<std::string(const Row&, std::size_t)>& use) {
     std::ifstream file(path, std::ios::binary);
-    const auto fail = [&](std::string_view what) {
-        throw FileError(fmt::format("{}: {}", path.string(), what));
-    };
-    if (!file) fail("expected a file that can be read");
-    std::vector<std::vector<double>> columns(header.columns.size());
-    std::string wrong;
+    std::string wrong = file ? "" : "expected a file that can be read";
     std::size_t rows = 0;
-    CsvRows table(header.separator, [&](const Row& row) {
-        if (rows++ == 0) return true;  // titles
-        if (row.size() != columns.size())
-            wrong = fmt::format("row {}: expected {} numbers, found {}", rows, columns.size(),
-                                row.size());
-        else if (rows > kMaxPoints)
-            wrong = "expected fewer than 2^32 rows";
-        for (std::size_t i = 0; i < columns.size() && wrong.empty(); ++i) {
-            if (header.columns[i].isText) continue;
-            if (const auto number = numberIn(row[i]))
-                columns[i].push_back(*number);
-            else
-                wrong = fmt::format("row {}: expected a number in column {}, found '{}'", rows,
-                                    header.columns[i].name, row[i].substr(0, 80));
-        }
+    CsvRows table(separator, [&](const Row& row) {
+        if (rows++ > 0) wrong = use(row, rows);
         return wrong.empty();
     });
     std::string buffer(std::size_t{1} << 16, '\0');
@@ -218,8 +207,69 @@ std::vector<std::vector<double>> readCsv(const std::filesystem::path& path,
     if (wrong.empty()) table.end();
     for (char& c : wrong)
         if (c >= '\0' && c < ' ') c = ' ';
-    if (!wrong.empty()) fail(wrong);
-    return columns;
+    if (!wrong.empty()) throw FileError(fmt::format("{}: {}", path.string(), wrong));
+}
+
+// A column again; nothing where some number of it is not one of these.
+template <typename T>
+std::optional<CsvNumbers> wholeNumbers(const std::filesystem::path& path, char separator,
+                                       std::size_t column) {
+    std::vector<T> values;
+    std::vector<bool> missing;
+    bool all = true, some = false;
+    forRows(path, separator, [&](const Row& row, std::size_t) -> std::string {
+        if (!all || column >= row.size()) return "";
+        const auto number = numberIn(row[column]);
+        const auto whole = numberOfText<T>(row[column]);
+        missing.push_back(number && std::isnan(*number));
+        all = whole || missing.back();
+        some = some || missing.back();
+        values.push_back(whole.value_or(0));
+        return "";
+    });
+    if (!all) return std::nullopt;
+    if (!some) missing.clear();
+    return CsvNumbers{std::move(values), std::move(missing)};
+}
+
+}  // namespace
+
+std::vector<CsvNumbers> readCsv(const std::filesystem::path& path, const CsvHeader& header) {
+    constexpr double kToldApart = 9007199254740992;  // 2^53
+    const std::size_t count = header.columns.size();
+    std::vector<std::vector<double>> columns(count);
+    std::vector<bool> large(count), whole(count, true);
+    forRows(path, header.separator, [&](const Row& row, std::size_t at) -> std::string {
+        if (row.size() != count)
+            return fmt::format("row {}: expected {} numbers, found {}", at, count, row.size());
+        if (at > kMaxPoints) return "expected fewer than 2^32 rows";
+        for (std::size_t i = 0; i < count; ++i) {
+            if (header.columns[i].isText) continue;
+            const auto number = numberIn(row[i]);
+            if (!number)
+                return fmt::format("row {}: expected a number in column {}, found '{}'", at,
+                                   header.columns[i].name, row[i].substr(0, 80));
+            columns[i].push_back(*number);
+            if (std::abs(*number) >= kToldApart) large[i] = true;
+            const bool isWhole = row[i].find_first_not_of("+-0123456789") == row[i].npos;
+            if (!isWhole && !std::isnan(*number)) whole[i] = false;
+        }
+        return "";
+    });
+    std::vector<CsvNumbers> numbers(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t rows = columns[i].size();
+        numbers[i].values = std::move(columns[i]);
+        if (!large[i] || !whole[i] || std::ranges::find(header.places, i) != header.places.end())
+            continue;
+        auto exact = wholeNumbers<std::int64_t>(path, header.separator, i);
+        if (!exact) exact = wholeNumbers<std::uint64_t>(path, header.separator, i);
+        if (!exact) continue;
+        numbers[i] = std::move(*exact);
+        if (std::visit([](const auto& all) { return all.size(); }, numbers[i].values) != rows)
+            throw FileError(fmt::format("{}: it changed while it was read", path.string()));
+    }
+    return numbers;
 }
 
 }  // namespace timeseries

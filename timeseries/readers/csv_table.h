@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "timeseries/grid/field.h"
+
 namespace timeseries {
 
 struct CsvColumn {
@@ -25,13 +27,18 @@ struct CsvHeader {
     std::array<std::optional<std::size_t>, 3> places;
 };
 
-// Of a file's beginning: its first two lines. Nothing where it is no table with places and other
-// numbers.
+// Of a file's beginning: its titles and its first row. Nothing where it is no table with places and
+// other numbers.
 std::optional<CsvHeader> csvHeaderOf(std::string_view start);
 
-// [column][row], none of text; what stands for nothing ("", "nan", "NA", "null") is NaN. Throws
-// FileError.
-std::vector<std::vector<double>> readCsv(const std::filesystem::path& path,
-                                         const CsvHeader& header);
+// Of a column: doubles, of which what stands for nothing ("", "nan", "NA", "null") is NaN; whole
+// numbers of 64 bits where all are whole and some are more than doubles tell apart.
+struct CsvNumbers {
+    Values values;              // [row]
+    std::vector<bool> missing;  // of whole numbers, as Field::missing
+};
+
+// [column]: none of text, doubles of places. Throws FileError.
+std::vector<CsvNumbers> readCsv(const std::filesystem::path& path, const CsvHeader& header);
 
 }  // namespace timeseries

@@ -110,10 +110,33 @@ class Matrix {
         if (!told_[static_cast<std::size_t>(i)]) return std::nullopt;
         double length = 0;
         for (int j = 1; j <= axes_; ++j) length = std::hypot(length, of(j, i));
-        return std::copysign(length, of(i, i));
+        return std::copysign(length, of(worldOf(i), i));
+    }
+    // The coordinate that pixels along an axis differ in, where it is one alone, and of no other
+    // axis; else its own.
+    int worldOf(int i) const {
+        const int only = onlyOne(i);
+        for (int other = 1; other <= axes_; ++other)
+            if (other != i && onlyOne(other) == only) return i;
+        return only != 0 ? only : i;
+    }
+    bool isTurned() const {
+        for (int i = 1; i <= axes_; ++i)
+            for (int j = 1; j <= axes_; ++j)
+                if (j != worldOf(i) && of(j, i) != 0) return true;
+        return false;
     }
 
  private:
+    int onlyOne(int i) const {
+        int only = 0;
+        for (int j = 1; j <= axes_; ++j) {
+            if (of(j, i) == 0) continue;
+            if (only != 0) return 0;
+            only = j;
+        }
+        return only;
+    }
     std::size_t at(int j, int i) const { return static_cast<std::size_t>(j * (kMostAxes + 1) + i); }
     double of(int j, int i) const {
         return hasCd_[static_cast<std::size_t>(i)] ? cd_[at(j, i)] : pc_[at(j, i)];
@@ -126,23 +149,19 @@ class Matrix {
 FitsAxis axisOf(const Keywords& keys, const Matrix& matrix, int number, LONGLONG size) {
     FitsAxis axis;
     axis.size = static_cast<std::uint64_t>(size);
-    axis.type = keys.text(fmt::format("CTYPE{}", number));
-    axis.unit = keys.text(fmt::format("CUNIT{}", number));
-    axis.reference = keys.number(fmt::format("CRVAL{}", number));
+    const int world = matrix.worldOf(number);
+    axis.type = keys.text(fmt::format("CTYPE{}", world));
+    axis.unit = keys.text(fmt::format("CUNIT{}", world));
+    axis.reference = keys.number(fmt::format("CRVAL{}", world));
     axis.referencePixel = keys.number(fmt::format("CRPIX{}", number)).value_or(0);
     axis.step = matrix.step(number);
     return axis;
 }
 
-bool isTurned(const Keywords& keys, int axes) {
-    for (int i = 1; i <= axes; ++i) {
+bool isTurned(const Keywords& keys, const Matrix& matrix, int axes) {
+    for (int i = 1; i <= axes; ++i)
         if (keys.number(fmt::format("CROTA{}", i)).value_or(0) != 0) return true;
-        for (int j = 1; j <= axes; ++j)
-            for (const char* matrix : {"PC", "CD"})
-                if (i != j && keys.number(fmt::format("{}{}_{}", matrix, i, j)).value_or(0) != 0)
-                    return true;
-    }
-    return false;
+    return matrix.isTurned();
 }
 
 }  // namespace
@@ -201,7 +220,7 @@ std::optional<FitsImage> FitsFile::Open::image(const FitsFile& of, int hdu) cons
     if (points == 0) return std::nullopt;
     image.name = keys.text("EXTNAME");
     image.unit = keys.text("BUNIT");
-    image.turned = isTurned(keys, dimensions);
+    image.turned = isTurned(keys, matrix, dimensions);
     image.packed = fits_is_compressed_image(file, &status) != 0;
     image.storedAs = fmt::format("BITPIX {}", bitpix);
     const double scale = keys.number("BSCALE").value_or(1), zero = keys.number("BZERO").value_or(0);

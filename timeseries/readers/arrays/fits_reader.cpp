@@ -38,18 +38,39 @@ std::string unitOf(const FitsAxis& axis) {
     return "";
 }
 
+// "LOG" of WAVE-LOG: how pixels become coordinates where that is not even (FITS 4.0, table 26).
+std::string algorithmOf(const FitsAxis& axis) {
+    if (axis.type.size() < 8 || axis.type[4] != '-' || isCelestial(axis)) return "";
+    const std::string code = axis.type.substr(5, 3);
+    const bool isTold = code == "LOG" || code == "TAB" || code == "GRI" || code == "GRA";
+    return isTold || code[1] == '2' ? code : "";
+}
+
+bool isWorkedOut(const FitsAxis& axis) {
+    const std::string algorithm = algorithmOf(axis);
+    return algorithm.empty() || (algorithm == "LOG" && axis.reference.value_or(0) != 0);
+}
+
 std::vector<double> coordinatesOf(const FitsAxis& axis) {
     const double first = isCelestial(axis) ? 0 : axis.reference.value_or(0);
+    const bool isLog = algorithmOf(axis) == "LOG";
     std::vector<double> coordinates;
-    for (std::uint64_t i = 0; i < axis.size; ++i)
-        coordinates.push_back(first + (static_cast<double>(i + 1) - axis.referencePixel) *
-                                          axis.step.value_or(1));
+    for (std::uint64_t i = 0; i < axis.size; ++i) {
+        const double away =
+            (static_cast<double>(i + 1) - axis.referencePixel) * axis.step.value_or(1);
+        coordinates.push_back(isLog ? first * std::exp(away / first) : first + away);
+    }
     return coordinates;
 }
 
 Axis spaceAxis(const FitsAxis& axis, const char* letter, std::vector<std::string>& notes) {
     const std::string quantity = quantityOf(axis);
     const std::string name = quantity.empty() ? letter : quantity;
+    if (!isWorkedOut(axis)) {
+        notes.push_back(fmt::format("{} is placed by index: {} is not even, and not worked out",
+                                    name, axis.type));
+        return {name, "index", indexCoordinates(axis.size), false};
+    }
     if (axis.step) {
         Axis placed{name, unitOf(axis), coordinatesOf(axis), false};
         if (flawOf(placed.coordinates).empty()) {
@@ -167,7 +188,7 @@ void FitsReader::add(FitsImage image) {
         const FitsAxis& axis = image.axes[*time];
         times.single = false;
         const std::vector<double> at = coordinatesOf(axis);
-        times.counted = !axis.step || *axis.step == 0 ||
+        times.counted = !axis.step || *axis.step == 0 || !isWorkedOut(axis) ||
                         !std::ranges::all_of(at, [](double t) { return std::isfinite(t); });
         times.values.clear();
         for (std::uint64_t i = 0; i < axis.size; ++i)

@@ -166,6 +166,9 @@ constexpr std::array kNames{
     NameRule{"k", Z, false},
 };
 
+// Of plain HDF5 what is unlimited may grow, and means nothing else.
+bool isRecord(const NcDimension& dimension) { return dimension.unlimited && dimension.isNamed(); }
+
 bool tellsAnAxis(const NcVariable& variable) {
     return kindByAttributes(variable).value_or(Other) != Other;
 }
@@ -208,13 +211,9 @@ FileAxes::FileAxes(const NcHeader& header, std::span<const NcVariable* const> fi
 
 // As NcHeader::find.
 const NcVariable* FileAxes::find(std::string_view name, std::string_view group) const {
-    while (true) {
-        const std::string path = fmt::format("{}{}{}", group, group.empty() ? "" : "/", name);
+    for (const std::string& path : namesMeant(name, group))
         if (const auto at = byName_.find(path); at != byName_.end()) return at->second;
-        if (group.empty()) return nullptr;
-        const auto slash = group.rfind('/');
-        group = slash == std::string_view::npos ? "" : group.substr(0, slash);
-    }
+    return nullptr;
 }
 
 void FileAxes::findCoordinates() {
@@ -334,7 +333,7 @@ Roles FileAxes::rolesOf(const NcVariable& variable) const {
     // What is left goes by position: the unlimited dimension is time, the last ones are x, y, z.
     for (std::size_t i = 0; i < rank; ++i)
         if (!taken(i) && !claims[i].kind && !roles.t &&
-            (header_.dimension(variable, i).unlimited || isTimeElsewhere(variable, i)))
+            (isRecord(header_.dimension(variable, i)) || isTimeElsewhere(variable, i)))
             roles.t = i;
     for (std::size_t i = rank; i-- > 0;) {
         if (claims[i].kind == List) roles.list = i;

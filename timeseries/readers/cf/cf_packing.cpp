@@ -54,19 +54,6 @@ const std::vector<Number>* numbersOf(const NcVariable& variable, const char* nam
     return numbers;
 }
 
-// The nearest T as IEEE 754 rounds: the largest one up to half a step beyond it (15 digits of it
-// are more), then infinity.
-template <typename T>
-T nearestFloat(double value) {
-    using Limits = std::numeric_limits<T>;
-    constexpr auto kMost = static_cast<double>(Limits::max());
-    if constexpr (std::is_same_v<T, double>) return value;
-    if (!(std::abs(value) > kMost)) return static_cast<T>(value);
-    const double halfStep = std::ldexp(1.0, Limits::max_exponent - Limits::digits - 1);
-    const T most = std::abs(value) - kMost < halfStep ? Limits::max() : Limits::infinity();
-    return std::copysign(most, static_cast<T>(std::signbit(value) ? -1 : 1));
-}
-
 // A number of an attribute as a T of the variable; with `wrap`, the bits of the other signedness
 // (_FillValue = -1b of an unsigned byte is 255). Nothing when no T equals it.
 template <typename T>
@@ -96,41 +83,6 @@ std::optional<T> storedNumber(const Number& number, bool wrap) {
         };
         if (const auto* i = std::get_if<std::int64_t>(&n)) return as(*i);
         return as(std::get<std::uint64_t>(n));
-    }
-}
-
-template <typename T>
-Number toNumber(T value) {
-    if constexpr (std::is_floating_point_v<T>)
-        return static_cast<double>(value);
-    else if constexpr (std::is_same_v<T, std::uint64_t>)
-        return value;
-    else
-        return static_cast<std::int64_t>(value);
-}
-
-// NetCDF's fill for what was never written; bytes have none, for every byte may be meant
-// (NetCDF User's Guide, "Attribute Conventions", _FillValue).
-std::optional<Number> defaultFill(ValueType stored) {
-    switch (stored) {
-        case ValueType::I16:
-            return Number(std::int64_t{NC_FILL_SHORT});
-        case ValueType::U16:
-            return Number(std::int64_t{NC_FILL_USHORT});
-        case ValueType::I32:
-            return Number(std::int64_t{NC_FILL_INT});
-        case ValueType::U32:
-            return Number(std::int64_t{NC_FILL_UINT});
-        case ValueType::I64:
-            return Number(std::int64_t{NC_FILL_INT64});
-        case ValueType::U64:
-            return Number(std::uint64_t{NC_FILL_UINT64});
-        case ValueType::F32:
-            return Number(static_cast<double>(NC_FILL_FLOAT));
-        case ValueType::F64:
-            return Number(NC_FILL_DOUBLE);
-        default:
-            return std::nullopt;
     }
 }
 
@@ -181,9 +133,9 @@ void readMissing(const NcVariable& variable, const Malformed& malformed, Packing
             const auto stored = storedNumber<decltype(t)>(number, wrap);
             // A missing_value that repeats the fill is common, and tells nothing.
             if (!stored ||
-                std::ranges::find(packing.missing, toNumber(*stored)) != packing.missing.end())
+                std::ranges::find(packing.missing, numberOf(*stored)) != packing.missing.end())
                 return;
-            packing.missing.push_back(toNumber(*stored));
+            packing.missing.push_back(numberOf(*stored));
             packing.missingText +=
                 fmt::format("{}{} {}", packing.missingText.empty() ? "" : ", ", name, +*stored);
         });
@@ -201,13 +153,17 @@ void readValidRange(const NcVariable& variable, const Malformed& malformed, Pack
     const bool wrap = packing.stored != *variable.type;
     const auto bound = [&](const char* name, const Number& number, std::optional<Number>& to) {
         if (const double* d = std::get_if<double>(&number); d && std::isnan(*d)) return;
-        // In unpacked values when its type is that of the scale (NetCDF User's Guide, valid_range).
-        packing.validUnpacked =
-            packing.scaled && !floating(packing.stored) && floating(*variable.find(name)->type);
+        // In unpacked values when its type is that of the scale, and wider than what is stored
+        // (NetCDF User's Guide, valid_range).
+        const ValueType type = *variable.find(name)->type;
+        const bool isWider = floating(packing.stored)
+                                 ? packing.stored != packing.unpacked && type == packing.unpacked
+                                 : floating(type);
+        packing.validUnpacked = packing.scaled && isWider;
         to = number;
         if (packing.validUnpacked) return;
         withType(packing.stored, [&](auto t) {
-            if (const auto stored = storedNumber<decltype(t)>(number, wrap)) to = toNumber(*stored);
+            if (const auto stored = storedNumber<decltype(t)>(number, wrap)) to = numberOf(*stored);
         });
     };
     if (const auto* range = numbersOf(variable, "valid_range", 2, malformed)) {
@@ -238,14 +194,14 @@ struct ValidInterval {
             lo = min ? nearestFloat<T>(toDouble(*min)) : -std::numeric_limits<T>::infinity();
             hi = max ? nearestFloat<T>(toDouble(*max)) : std::numeric_limits<T>::infinity();
         } else {
-            if (min && compare(*min, toNumber(lo)) > 0) {
-                if (compare(*min, toNumber(hi)) > 0)
+            if (min && compare(*min, numberOf(lo)) > 0) {
+                if (compare(*min, numberOf(hi)) > 0)
                     empty = true;
                 else
                     lo = inward(*min, true);
             }
-            if (max && compare(*max, toNumber(hi)) < 0) {
-                if (compare(*max, toNumber(std::numeric_limits<T>::lowest())) < 0)
+            if (max && compare(*max, numberOf(hi)) < 0) {
+                if (compare(*max, numberOf(std::numeric_limits<T>::lowest())) < 0)
                     empty = true;
                 else
                     hi = inward(*max, false);
@@ -320,6 +276,29 @@ bool inOrder(const StridedLayout& layout) {
 }
 
 }  // namespace
+
+std::optional<Number> defaultFill(ValueType stored) {
+    switch (stored) {
+        case ValueType::I16:
+            return Number(std::int64_t{NC_FILL_SHORT});
+        case ValueType::U16:
+            return Number(std::int64_t{NC_FILL_USHORT});
+        case ValueType::I32:
+            return Number(std::int64_t{NC_FILL_INT});
+        case ValueType::U32:
+            return Number(std::int64_t{NC_FILL_UINT});
+        case ValueType::I64:
+            return Number(std::int64_t{NC_FILL_INT64});
+        case ValueType::U64:
+            return Number(std::uint64_t{NC_FILL_UINT64});
+        case ValueType::F32:
+            return Number(static_cast<double>(NC_FILL_FLOAT));
+        case ValueType::F64:
+            return Number(NC_FILL_DOUBLE);
+        default:
+            return std::nullopt;
+    }
+}
 
 Packing packingOf(const NcVariable& variable, const Malformed& malformed) {
     Packing packing;

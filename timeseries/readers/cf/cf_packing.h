@@ -31,6 +31,10 @@ struct Packing {
     double unpack(double number) const { return scaled ? number * scale + offset : number; }
 };
 
+// NetCDF's fill for what was never written; bytes have none, for every byte may be meant
+// (NetCDF User's Guide, "Attribute Conventions", _FillValue).
+std::optional<Number> defaultFill(ValueType stored);
+
 // `malformed` is called with what an attribute should have been, and does not return.
 // REQUIRES: variable.type.
 Packing packingOf(const NcVariable& variable,

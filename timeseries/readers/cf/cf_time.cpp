@@ -36,8 +36,8 @@ std::optional<std::pair<std::int64_t, double>> dayOfDigits(double digits, Calend
     const double whole = std::floor(std::abs(digits));
     const auto day = static_cast<std::int64_t>(whole);
     const std::int64_t year = day / 10'000;
-    const CivilDate date{digits < 0 ? -year : year, static_cast<int>(day / 100 % 100),
-                         static_cast<int>(day % 100)};
+    const CivilDate date{yearAsWritten(calendar, digits < 0 ? -year : year),
+                         static_cast<int>(day / 100 % 100), static_cast<int>(day % 100)};
     if (!exists(calendar, date)) return std::nullopt;
     return std::pair{dayNumber(calendar, date), std::abs(digits) - whole};
 }
@@ -55,7 +55,8 @@ void countDays(StoredTimes& times) {
     }
     const std::int64_t first = days.front().first;
     const CivilDate date = civilDate(*calendar, first);
-    times.units = fmt::format("days since {}-{:02}-{:02}", date.year, date.month, date.day);
+    times.units = fmt::format("days since {}-{:02}-{:02}", writtenYear(*calendar, date.year),
+                              date.month, date.day);
     for (std::size_t i = 0; i < days.size(); ++i)
         times.values[i] = static_cast<double>(days[i].first - first) + days[i].second;
 }

@@ -34,16 +34,37 @@ std::vector<double> NcAttributes::numbers(std::string_view attribute) const {
     return numbers;
 }
 
+std::vector<std::string> namesMeant(std::string_view name, std::string_view group) {
+    if (name.starts_with('/')) return {std::string(name.substr(1))};
+    const auto leave = [&] {
+        const auto slash = group.rfind('/');
+        group = slash == group.npos ? "" : group.substr(0, slash);
+    };
+    const auto here = [&] {
+        return std::string(group) + (group.empty() ? "" : "/") + std::string(name);
+    };
+    bool says = false;
+    for (; name.starts_with("./") || name.starts_with("../"); says = true) {
+        if (name.starts_with("../")) {
+            if (group.empty()) return {};
+            leave();
+        }
+        name.remove_prefix(name.find('/') + 1);
+    }
+    std::vector<std::string> names{here()};
+    while (!says && !group.empty()) {
+        leave();
+        names.push_back(here());
+    }
+    return names;
+}
+
 const NcVariable* NcHeader::find(std::string_view name, std::string_view group) const {
-    while (true) {
-        const std::string path =
-            group.empty() ? std::string(name) : std::string(group) + '/' + std::string(name);
+    for (const std::string& path : namesMeant(name, group)) {
         const auto at = std::ranges::find(variables, path, &NcVariable::name);
         if (at != variables.end()) return &*at;
-        if (group.empty()) return nullptr;
-        const auto slash = group.rfind('/');
-        group = slash == std::string_view::npos ? "" : group.substr(0, slash);
     }
+    return nullptr;
 }
 
 const NcGroup* NcHeader::findGroup(std::string_view name) const {

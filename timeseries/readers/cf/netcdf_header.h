@@ -62,6 +62,11 @@ struct NcVariable : NcAttributes {
     }
 };
 
+// What a name in a file's attributes may mean as seen from `group`, the likeliest first: what is
+// there, then in the groups around it; of "/a/b", "./b" and "../b" what that says alone (CF 1.10,
+// section 2.7).
+std::vector<std::string> namesMeant(std::string_view name, std::string_view group);
+
 // The format of files whose dimensions have no names.
 constexpr std::string_view kPlainHdf5 = "HDF5";
 
@@ -71,8 +76,7 @@ struct NcHeader {
     std::vector<NcVariable> variables;
     std::vector<NcGroup> groups;  // the root is the first
 
-    // By the name as written in a file's attributes, seen from `group`: there, then in the groups
-    // around it (CF 1.10, section 2.7). Null when there is none.
+    // By the name as written in a file's attributes, seen from `group`. Null when there is none.
     const NcVariable* find(std::string_view name, std::string_view group) const;
     // Null when there is none of this name.
     const NcGroup* findGroup(std::string_view name) const;

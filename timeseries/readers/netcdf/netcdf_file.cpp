@@ -1,15 +1,22 @@
 #include "timeseries/readers/netcdf/netcdf_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <netcdf.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <mutex>
 
+#include "timeseries/grid/with_type.h"
+#include "timeseries/readers/cf/cf_packing.h"
 #include "timeseries/readers/forked_call.h"
 #include "timeseries/readers/limits.h"
 #include "timeseries/readers/netcdf/classic_layout.h"
@@ -39,6 +46,23 @@ class LibraryLock {
     }
     std::lock_guard<std::mutex> lock_;
 };
+
+// HDF5 would keep a file locked as long as it is open, and whoever writes it could not go on while
+// somebody looks. Before the library is called first, and any thread begun; a user's own word
+// stays.
+const bool kNeverLocked = std::getenv("HDF5_USE_FILE_LOCKING") == nullptr &&
+                          setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1) == 0;
+
+// By a program that writes it: what it has written by now may be no file yet.
+bool isLocked(const std::filesystem::path& path) {
+    if (!kNeverLocked) return false;  // HDF5 does as its user says
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return false;
+    const bool is = flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    flock(file, LOCK_UN);  // also of copies of this process that begin just now
+    ::close(file);
+    return is;
+}
 
 std::optional<ValueType> valueType(nc_type type) {
     switch (type) {
@@ -113,6 +137,8 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& path, Header header) : CfFil
     file.close();
 
     const LibraryLock lock;
+    if (first != 'C' && isLocked(path))
+        fail("", "expected a file that nobody writes, but a program has it locked");
     if (first != 'C' && header == Header::New) {
         const std::string end = endOfForked([this] { open(); }, kMaxHeaderTime);
         if (!end.empty()) fail("header", "expected one that HDF5 can read, but HDF5 " + end);
@@ -152,7 +178,7 @@ std::vector<bool> NetcdfFile::triedTogether(std::span<const std::filesystem::pat
 void NetcdfFile::open() {
     // Absolute: the library takes what looks like a URL for one.
     check(nc_open(std::filesystem::absolute(path_).c_str(), NC_NOWRITE, &id_), "",
-          "a whole netCDF file");
+          "a whole netCDF file, whose links lead somewhere");
     try {
         readHeader();
     } catch (...) {
@@ -215,6 +241,24 @@ void NetcdfFile::readGroup(int group, const std::string& name, int depth) {
     }
 }
 
+namespace {
+
+// Whether the library fills with its own number what was never written: arrays of HDF5 that no
+// netCDF wrote may say another, which is a value as others are.
+bool isFilledByDefault(int group, int id, std::optional<ValueType> type) {
+    int noFill = 0;
+    std::size_t length = 0;
+    // Of classic files the library would give that as it stands, of any type and length.
+    if (!type || nc_inq_attlen(group, id, "_FillValue", &length) == NC_NOERR) return false;
+    return withType(*type, [&](auto value) {
+        if (nc_inq_var_fill(group, id, &noFill, &value) != NC_NOERR) return true;
+        const auto fill = defaultFill(*type);
+        return noFill == 0 && (!fill || compare(numberOf(value), *fill) == 0);
+    });
+}
+
+}  // namespace
+
 void NetcdfFile::readVariable(int group, const std::string& groupName, int id) {
     NcVariable variable;
     variable.group = groupName;
@@ -233,15 +277,18 @@ void NetcdfFile::readVariable(int group, const std::string& groupName, int id) {
     variable.type = valueType(type);
     for (const int dimension : dimensions) {
         const auto at = std::ranges::find(dimensionIds_, dimension);
-        if (at == dimensionIds_.end()) fail(place, "expected dimensions that the file declares");
+        if (at == dimensionIds_.end())
+            fail(place,
+                 "expected dimension scales along all of its dimensions, or none: the "
+                 "library takes no others");
         variable.dimensions.push_back(static_cast<std::size_t>(at - dimensionIds_.begin()));
     }
     for (int i = 0; i < attributeCount; ++i)
         if (auto attribute = readAttribute(group, id, i, place))
             variable.attributes.push_back(std::move(*attribute));
 
-    int noFill = 0, storage = NC_CONTIGUOUS;
-    if (nc_inq_var_fill(group, id, &noFill, nullptr) == NC_NOERR) variable.filled = noFill == 0;
+    int storage = NC_CONTIGUOUS;
+    variable.filled = isFilledByDefault(group, id, variable.type);
     std::vector<std::size_t> chunk(std::max<std::size_t>(variable.dimensions.size(), 1), 0);
     if (rank > 0 && nc_inq_var_chunking(group, id, &storage, chunk.data()) == NC_NOERR &&
         storage == NC_CHUNKED) {

@@ -123,6 +123,22 @@ std::string_view calendarName(Calendar calendar) {
     return "";
 }
 
+namespace {
+
+bool hasNoYearZero(Calendar calendar) {
+    return calendar == Calendar::Standard || calendar == Calendar::Julian;
+}
+
+}  // namespace
+
+std::int64_t yearAsWritten(Calendar calendar, std::int64_t written) {
+    return hasNoYearZero(calendar) && written < 0 ? written + 1 : written;
+}
+
+std::int64_t writtenYear(Calendar calendar, std::int64_t year, bool hasZero) {
+    return hasNoYearZero(calendar) && year < (hasZero ? 0 : 1) ? year - 1 : year;
+}
+
 bool exists(Calendar calendar, const CivilDate& d) {
     if (d.year < -kMaxYear || d.year > kMaxYear || d.month < 1 || d.month > 12 || d.day < 1)
         return false;

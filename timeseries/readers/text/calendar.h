@@ -1,9 +1,10 @@
 // The calendars of the CF conventions (1.10, section 4.4.1) in integer days: udunits knows only the
 // mixed calendar, and counts its year 0 as year 1.
 //
-// Years are astronomical in every calendar: year 0 exists and -1 comes before it. The mixed and the
-// Julian calendar of CF have no year 0; files that use one (climatologies) write it as 0000 and
-// expect to see it again.
+// Years are astronomical in every calendar here: year 0 exists and -1 comes before it. The mixed
+// and the Julian calendar of CF, as udunits', have no year 0: what files write as -1 is the one
+// before
+// 1. Files that use a year 0 all the same (climatologies) mean that one, too, and expect to see it.
 #pragma once
 
 #include <cstdint>
@@ -31,6 +32,10 @@ struct CivilDate {
     int month = 1, day = 1;
     friend bool operator==(const CivilDate&, const CivilDate&) = default;
 };
+
+// Of a year as files of this calendar write it, and back, in one that `hasZero` all the same.
+std::int64_t yearAsWritten(Calendar calendar, std::int64_t written);
+std::int64_t writtenYear(Calendar calendar, std::int64_t year, bool hasZero = false);
 
 bool exists(Calendar calendar, const CivilDate& date);
 // Days on a line without gaps. Zero is 1970-01-01 Gregorian for the first three calendars (which so

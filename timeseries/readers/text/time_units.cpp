@@ -213,8 +213,11 @@ std::optional<TimeUnits> TimeUnits::parse(std::string_view text, Calendar calend
 
     Cursor in{parts->second};
     in.blank();
-    const auto date = takeDate(in);
-    if (!date || !exists(calendar, *date)) return std::nullopt;
+    auto date = takeDate(in);
+    if (!date) return std::nullopt;
+    const bool hasYearZero = date->year == 0;
+    date->year = yearAsWritten(calendar, date->year);
+    if (!exists(calendar, *date)) return std::nullopt;
     std::int64_t ns = 0;
     const bool blank = in.blank();
     if (in.take('T') ||
@@ -230,6 +233,7 @@ std::optional<TimeUnits> TimeUnits::parse(std::string_view text, Calendar calend
 
     TimeUnits units;
     units.calendar_ = calendar;
+    units.hasYearZero_ = hasYearZero;
     units.unitNs_ = std::llround(*seconds * 1e9L);
     const std::int64_t days = ns >= 0 ? ns / kDayNs : -((kDayNs - 1 - ns) / kDayNs);
     units.referenceDay_ = dayNumber(calendar, *date) + days;
@@ -251,7 +255,8 @@ std::string TimeUnits::date(const Number& value) const {
     Wide days = ns / kDayNs - (ns % kDayNs < 0);
     const auto clock = static_cast<std::int64_t>(ns - days * kDayNs) / shown * shown;
     days += referenceDay_;
-    const CivilDate d = civilDate(calendar_, static_cast<std::int64_t>(days));
+    CivilDate d = civilDate(calendar_, static_cast<std::int64_t>(days));
+    d.year = writtenYear(calendar_, d.year, hasYearZero_);
     const std::int64_t second = clock / 1'000'000'000, fraction = clock % 1'000'000'000 / shown;
     std::string text =
         fmt::format("{}{:04}-{:02}-{:02} {:02}:{:02}:{:02}", d.year < 0 ? "-" : "",

@@ -37,6 +37,7 @@ class TimeUnits {
     Calendar calendar_ = Calendar::Standard;
     std::int64_t unitNs_ = 1;                          // one unit
     std::int64_t referenceDay_ = 0, referenceNs_ = 0;  // in UTC; 0 <= referenceNs_ < a day
+    bool hasYearZero_ = false;                         // the reference is of it
 };
 
 // "seconds since ...", "Days Since ...": the form alone, not whether it can be read.

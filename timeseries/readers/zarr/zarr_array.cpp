@@ -18,10 +18,9 @@ namespace {
 template <typename T>
 std::optional<T> storedFill(const Number& number) {
     if constexpr (std::is_floating_point_v<T>) {
-        const double value = toDouble(number);
-        if (std::isfinite(value) && std::abs(value) > std::numeric_limits<T>::max())
-            return std::nullopt;
-        return static_cast<T>(value);
+        const T nearest = nearestFloat<T>(toDouble(number));
+        const bool isBeyond = std::isinf(nearest) && std::isfinite(toDouble(number));
+        return isBeyond ? std::nullopt : std::optional(nearest);
     } else {
         if (const double* d = std::get_if<double>(&number)) {
             // Whole numbers with a point, as some write them: exact up to 2^53.
