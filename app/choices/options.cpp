@@ -336,6 +336,10 @@ Command parse(std::span<const char* const> arguments) {
     };
     try {
         std::vector<std::string> all = withCommand(arguments);
+        // CLI11 would give it the next argument.
+        for (const std::string& each : all)
+            if (each.starts_with("--") && each.find('=') == each.size() - 1)
+                return Exit{2, fmt::format("{} has no value (see isochron --help)", each)};
         std::ranges::reverse(all);  // CLI11 takes them last first
         app.parse(std::move(all));
         if (*infoApp) return with(info);

@@ -6,6 +6,7 @@
 
 #include "app/choices/camera.h"
 #include "app/choices/choice_text.h"
+#include "app/choices/clip_flaw.h"
 #include "app/choices/idle_choices.h"
 #include "app/choices/map_flaw.h"
 #include "app/command/commands.h"
@@ -138,7 +139,16 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
     for (std::size_t i = 0; i < frames.size(); ++i) {
         progress.at(i);
         const FrameAt frame = frames[i];
-        const auto step = source.get(frame.step, frames[std::min(i + 1, frames.size() - 1)].step);
+        const auto step = [&] {
+            try {
+                return source.get(frame.step, frames[std::min(i + 1, frames.size() - 1)].step);
+            } catch (const timeseries::FileError& why) {
+                if (i == 0) throw;
+                files.wait();
+                throw timeseries::FileError(fmt::format("{}; {} of {} pictures were written before",
+                                                        why.what(), i, frames.size()));
+            }
+        }();
         if (step != shown) {
             shown = step;
             if (i > 0) source.drop(frames[i - 1].step);
@@ -164,7 +174,8 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
                                       .progress = [&](double share) { progress.drawn(share); }},
                                      frame.file);
         if (drawn.mixed) ++told.mixed;
-        if (drawn.points == 0) ++told.empty;
+        const bool isBesideClip = e.clip && !clipFlaw(*e.clip, step->grid()).empty();
+        if (drawn.points == 0 || isBesideClip) ++told.empty;
         if (std::string why = whyFlat(e, step->grid(), *placed); !why.empty()) {
             ++told.flat;
             told.whyFlat = std::move(why);
@@ -202,7 +213,8 @@ int renderHeadless(const RenderOptions& options) {
         say("  note: colours are mixed{}: the mean optical depth is more than {}; --order depth "
             "draws what is in front over what is behind\n",
             inSome(mixed), render::kMixedDepth);
-    if (empty > 0) say("  note: 0 points are selected{}\n", inSome(empty));
+    if (empty > 0)
+        say("  note: 0 points are selected{}{}\n", e.clip ? " in the clip box" : "", inSome(empty));
     if (flat > 0) say("  note: what is drawn lies flat{}: {}\n", inSome(flat), why);
     for (const std::string& idle : idleChoices(options.explorer)) say("  note: {}\n", idle);
     if (options.byPointsAlone)

@@ -139,7 +139,8 @@ void FileActions::screenshot(const std::optional<double>& error) {
     const auto shown = exploration_.shown();
     if (!shown) return;
     telling(exploration_, [&] {
-        const fs::path file = numbered(fs::path(shown->dataset.name).stem().string());
+        const fs::path file =
+            numbered(fs::path(shown->dataset.name).stem().string() + "_screenshot");
         canvas_.save(*shown, file, error);
         const bool isAsAsked = shown->explorer.map == exploration_.explorer().map;
         exploration_.tell((isAsAsked ? "Screenshot: " : "Screenshot, lying flat: ") +

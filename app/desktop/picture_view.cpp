@@ -139,6 +139,7 @@ void PictureView::tellError() {
     errors_ = std::move(errors);
     errorsOf_ = selectionOf(content_->explorer);
     predictError();
+    performance_.isErrorOfAnother = false;
     measured_ = parts_;
     partsCame_ = parts_ == Parts::All;
 }
@@ -148,6 +149,7 @@ void PictureView::predictError() {
     measured_.reset();
     performance_.errors =
         errorsOf_ == selectionOf(content_->explorer) ? errors_ : std::optional<DepthErrors>();
+    performance_.isErrorOfAnother = true;
 }
 
 void PictureView::took(std::chrono::nanoseconds frame) {

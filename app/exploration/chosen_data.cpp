@@ -27,9 +27,13 @@ ChosenData openChosen(const Explorer& choices) {
     OpenDataset dataset = openDataset(e.files, e.variable);
     e.variable = dataset.variable.name;
     chooseAxes(dataset, e.axes);
-    if (e.clip)
-        if (const std::string flaw = clipFlaw(*e.clip, *dataset.variable.grid); !flaw.empty())
+    const auto expectClip = [&](const timeseries::Grid& grid) {
+        if (!e.clip) return;
+        if (const std::string flaw = clipFlaw(*e.clip, grid); !flaw.empty())
             throw ChoiceError(flaw);
+    };
+    const bool mayMove = dataset.variable.grid->mesh() && dataset.stepCount() > 1;
+    if (!mayMove) expectClip(*dataset.variable.grid);
     if (e.map == render::Map::Globe)
         if (const std::string flaw = globeFlaw(*dataset.variable.grid); !flaw.empty())
             throw ChoiceError(flaw);
@@ -37,6 +41,8 @@ ChosenData openChosen(const Explorer& choices) {
     std::vector<std::size_t> steps = stepsOf(dataset, *e.steps);
     auto source = std::make_unique<StepSource>(
         dataset, e.keep.value_or(timeseries::RangeSet::everything()), rangesNeeded(e));
+    if (mayMove && e.clip && steps.size() == 1)
+        expectClip(source->get(steps.front(), steps.front())->grid());
     if (needsSamples(e)) e = resolved(e, sample(*source, steps));
     return {std::move(dataset), std::move(e), std::move(steps), std::move(source)};
 }

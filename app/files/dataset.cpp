@@ -91,14 +91,41 @@ std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choic
     return steps;
 }
 
+namespace {
+
+// Digits behind the point; none of a number with an exponent.
+std::size_t decimalsOf(std::string_view number) {
+    const std::size_t point = number.find('.');
+    return point == number.npos || number.find('e') != number.npos ? 0 : number.size() - point - 1;
+}
+
+// With as many decimals as the others of the axis, so that a movie's do not jump. Of even steps the
+// first two have the most that any has; many come from rounding, and are as they are.
+std::string numberOf(const timeseries::TimeAxis& axis, std::size_t step) {
+    constexpr std::size_t kMost = 6;
+    const auto text = [&](std::size_t i) { return fmt::format("{:.10g}", axis.points[i].value); };
+    std::string number = text(step);
+    std::size_t decimals = 0;
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}, axis.points.size() - 1})
+        if (i < axis.points.size()) decimals = std::max(decimals, decimalsOf(text(i)));
+    const std::size_t own = decimalsOf(number);
+    if (own >= decimals || decimals > kMost ||
+        number.find_first_not_of("-.0123456789") != number.npos)
+        return number;
+    if (own == 0) number += '.';
+    return number + std::string(decimals - own, '0');
+}
+
+}  // namespace
+
 std::string timeText(const timeseries::TimeAxis& axis, std::size_t step) {
     const timeseries::TimePoint& point = axis.points[step];
     if (!point.date.empty()) return point.date;
     if (axis.counted) return fmt::format("step {}", step);
     if (std::isnan(point.value)) return "no " + axis.name;
-    return render::shownUnit(axis.units).empty()
-               ? fmt::format("{} {:.10g}", axis.name, point.value)
-               : fmt::format("{:.10g} {}", point.value, axis.units);
+    const std::string number = numberOf(axis, step);
+    return render::shownUnit(axis.units).empty() ? axis.name + " " + number
+                                                 : number + " " + axis.units;
 }
 
 std::string withCommas(std::uint64_t count) {

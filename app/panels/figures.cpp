@@ -38,7 +38,9 @@ std::string limitText(const Performance& p) {
 std::string errorFigure(const Performance& p) {
     const RungError* const error = p.told();
     if (error == nullptr) return "";
-    const std::string depth = depthErrorText(error->depth);
+    std::string depth = depthErrorText(error->depth);
+    if (p.isErrorOfAnother && !depth.empty())
+        depth.insert(std::string_view("error").size(), " was");
     return depth.empty() ? "" : depth + lightErrorText(*error, p.errors->ordering);
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "app/choices/paths.h"
 #include "app/exploration/export_job.h"
 #include "app/files/frame_files.h"
 
@@ -55,7 +56,7 @@ void end() {
 void FilePanel::ask(For what, const fs::path& path) {
     for_ = what;
     typed_ = path.string();
-    warnedOf_.clear();
+    answeredTo_.clear();
     focus_ = true;
     const fs::path folder = fs::absolute(path.has_parent_path() ? path.parent_path() : ".");
     list(folder.lexically_normal());
@@ -75,20 +76,32 @@ void FilePanel::list(const fs::path& folder) {
 }
 
 void FilePanel::take(PanelContext& context, const fs::path& path) {
-    if (*for_ == For::Open) {
-        context.requests.open = {path};
-        return close();
+    const bool again = asked_ && answeredTo_ == path.string();
+    answer_ = flaw(path);
+    asked_ = answer_.empty() && *for_ != For::Open;
+    if (asked_ && !again) answer_ = warning(context, path);
+    answeredTo_ = path.string();
+    if (!answer_.empty()) return;
+    switch (*for_) {
+        case For::Open:
+            context.requests.open = {path};
+            break;
+        case For::Save:
+            context.requests.save = path;
+            break;
+        case For::Export:
+            context.requests.exportTo = path;
     }
-    if (warnedOf_ != path.string()) {
-        warning_ = warning(context, path);
-        warnedOf_ = path.string();
-        if (!warning_.empty()) return;
-    }
-    if (*for_ == For::Save)
-        context.requests.save = path;
-    else
-        context.requests.exportTo = path;
     close();
+}
+
+std::string FilePanel::flaw(const fs::path& path) const {
+    std::error_code gone;
+    if (*for_ == For::Open) return isThere(path) ? "" : "There is no such file";
+    if (!fs::is_directory(path.parent_path(), gone))
+        return fmt::format("There is no folder {}", path.parent_path().string());
+    const bool isPicture = path.extension() == ".png" || path.extension() == ".exr";
+    return *for_ == For::Save || isPicture ? "" : "Its name ends in .png or in .exr";
 }
 
 std::string FilePanel::warning(const PanelContext& context, const fs::path& path) const {
@@ -157,8 +170,10 @@ void FilePanel::draw(PanelContext& context) {
             all_ = *filter == 1;
             list(folder_);
         }
-    } else if (!warnedOf_.empty() && warnedOf_ == chosen().string()) {
-        text(theme, {left, y + 15 * s}, fitting(*theme.text, warning_, right - 220 * s - left),
+    }
+    if (!answer_.empty() && answeredTo_ == chosen().string()) {
+        const float from = *for_ == For::Open ? left + 192 * s : left;
+        text(theme, {from, y + 15 * s}, fitting(*theme.text, answer_, right - 220 * s - from),
              kError);
     }
     if (textButton(theme, "Cancel", {{right - 208 * s, y}, {right - 108 * s, y + 30 * s}},

@@ -31,6 +31,9 @@ class FilePanel {
     void list(const std::filesystem::path& folder);
     void drawList(PanelContext& context, const Rect& at);
     void take(PanelContext& context, const std::filesystem::path& path);
+    // What speaks against the path, a line: nothing is there to be opened, or nothing can be
+    // written there. "" when nothing does.
+    std::string flaw(const std::filesystem::path& path) const;
     // What would be replaced, asked as one line; "" when nothing would.
     std::string warning(const PanelContext& context, const std::filesystem::path& path) const;
 
@@ -39,7 +42,8 @@ class FilePanel {
     std::filesystem::path folder_;
     std::optional<FolderListing> listing_;
     FolderContents contents_;
-    std::string typed_, warnedOf_, warning_;
+    std::string typed_, answeredTo_, answer_;  // what was taken last, and why it was not
+    bool asked_ = false;                       // the answer is warning()'s
     bool all_ = false, focus_ = false;
 };
 

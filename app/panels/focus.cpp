@@ -70,9 +70,11 @@ bool Focus::press(const KeyPress& key, bool typing) {
         return false;
     }
     // ImGui would leave the field where the text was.
-    if (typing && place_ != before) ImGui::ClearActiveID();
+    if (typing && place_ != before) endTyping();
     return taken;
 }
+
+void Focus::endTyping() { ImGui::ClearActiveID(); }
 
 void Focus::tab(bool back) {
     const auto stops = [&](const Control& c) { return c.isStop || c.id == place_; };

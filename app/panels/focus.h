@@ -68,6 +68,8 @@ class Focus {
     // The control that has the keys, or was pressed last: where Tab goes on from.
     ImGuiID place() const { return place_; }
 
+    // The field where text is typed takes it, as it does where it is left.
+    static void endTyping();
     // Text may come before the field that has just got the focus has begun to take it.
     bool expectsText() const { return untilTyping_ > 0; }
 

@@ -97,16 +97,18 @@ void Interface::forgetOtherData(const Explorer& now) {
 }
 
 // The control that has the focus first; else a key is a command, but for what is typed, and what
-// may be meant for the fields of something that stands in front.
+// may be meant for the fields of something that stands in front. What is about files ends typing.
 void Interface::takeKey(Exploration& exploration, const std::optional<KeyPress>& key,
                         Requests& requests) {
     setFocus(focus_);
     const bool typing = ImGui::GetIO().WantTextInput;
     const bool typed = typing || focus_.expectsText() || files_.isOpen() ||
                        (popup_ && key && !key->ctrl && key->key != Key::F12);
-    if (focus_.begin(key, typing)) {
+    const bool ends = typing && key && endsTyping(*key) && !files_.isOpen();
+    if (ends) Focus::endTyping();
+    if (focus_.begin(ends ? std::nullopt : key, typing && !ends)) {
         if (!key->repeated) exploration.endGesture();  // a held key is one gesture, as a drag
-    } else if (key && !typed) {
+    } else if (key && (ends || !typed)) {
         if (const auto command = commandOf(*key)) requests.commands.push_back(*command);
     }
 }

@@ -76,6 +76,12 @@ std::optional<Command> commandOf(const KeyPress& press) {
     return found->command;
 }
 
+bool endsTyping(const KeyPress& press) {
+    const auto command = commandOf(press);
+    return command == Command::Open || command == Command::Save || command == Command::Export ||
+           command == Command::Screenshot;
+}
+
 std::span<const HelpLine> helpLines() { return kHelp; }
 
 }  // namespace app::panels

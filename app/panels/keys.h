@@ -73,6 +73,9 @@ std::span<const Binding> bindings();
 // None too for a key that is held down, of a command that is given once.
 std::optional<Command> commandOf(const KeyPress& press);
 
+// It is a command about files, which no text has a use for, as it has for Ctrl+C and Ctrl+Z.
+bool endsTyping(const KeyPress& press);
+
 // What help and README show, in groups; mouse gestures too.
 struct HelpLine {
     std::string_view group, keys, does;

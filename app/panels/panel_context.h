@@ -29,6 +29,7 @@ struct Performance {
     std::uint64_t picture = 0;  // another number, another picture
     // Of ways to draw its selection, once they are known, also of another view or step.
     std::optional<DepthErrors> errors = {};
+    bool isErrorOfAnother = false;
 
     Rung drawn() const {
         return {report.cells ? Model::Cells : Model::Points, report.stride, report.across};

@@ -50,11 +50,13 @@ std::vector<std::string> amounts(const render::Scene& scene, bool isClipped) {
     return texts;
 }
 
-// "layer 2", "layers 1 and 3", counted among those that are seen.
-std::string pointLayers(const render::Scene& scene) {
+// "layer 2", "layers 1 and 3", counted among all, also those that are not seen.
+std::string pointLayers(const Explorer& e, const render::Scene& scene) {
     std::vector<std::string> numbers;
-    for (std::size_t k = 0; k < scene.layers.size(); ++k)
-        if (scene.layers[k].byPoints) numbers.push_back(std::to_string(k + 1));
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < e.layers.size(); ++i)
+        if (e.layers[i].visible && scene.layers[k++].byPoints)
+            numbers.push_back(std::to_string(i + 1));
     if (numbers.size() < 2) return numbers.empty() ? "" : "layer " + numbers.front();
     const std::string last = std::exchange(numbers.back(), "");
     numbers.pop_back();
@@ -82,6 +84,27 @@ std::uint64_t infinitePoints(const render::Scene& scene) {
             points += std::max(last, end - most) - std::max(run.first, end - most);
         }
     return points;
+}
+
+// Where a mesh that moves has left the box that all steps are drawn in; "" where it has not.
+std::string beyondBox(const timeseries::Grid& grid) {
+    constexpr double kRounding = 1e-5;  // of the box, that places are kept to
+    if (!grid.ofOneStep()) return "";
+    std::string beyond;
+    for (int a = 0; a < 3; ++a) {
+        const auto along = static_cast<std::size_t>(a);
+        const auto [least, most] = grid.ends(along);
+        const double lo = grid.mesh()->lo()[a], hi = grid.mesh()->hi()[a];
+        const double rounding = kRounding * std::max(most - least, hi - lo);
+        if (lo >= least - rounding && hi <= most + rounding) continue;
+        const timeseries::Axis& axis = grid.axes()[along];
+        const std::string unit = render::shownUnit(axis.units);
+        beyond += fmt::format("{}{}, {} to {}{}{}", beyond.empty() ? "" : "; ", axis.name,
+                              render::withMinusSigns(fmt::format("{:.4g}", lo)),
+                              render::withMinusSigns(fmt::format("{:.4g}", hi)),
+                              unit.empty() ? "" : " ", unit);
+    }
+    return beyond.empty() ? "" : "beyond the box, which is the first step's: " + beyond;
 }
 
 // What a sweep reaches beyond is neither drawn nor counted.
@@ -153,7 +176,7 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
         legend.notes.emplace_back(kInterpolated);
         if (const std::uint64_t points = infinitePoints(scene); points > 0)
             legend.notes.push_back(withCommas(points) + kInfinite);
-        if (const std::string which = pointLayers(scene); !which.empty())
+        if (const std::string which = pointLayers(e, scene); !which.empty())
             legend.notes.push_back(which + kByPointsAlone);
     } else if (modelOf(e) == Model::Cells && !scene.step.canHaveCells()) {
         legend.notes.push_back(fmt::format("drawn by points: {}", scene.step.whyNoCells()));
@@ -161,6 +184,8 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
         legend.notes.emplace_back(
             "drawn by points: the splats of one layer have no order among another's cells here");
     }
+    if (std::string beyond = beyondBox(scene.step.grid()); !beyond.empty())
+        legend.notes.push_back(std::move(beyond));
     const std::string clipped = e.clip ? clipLabel(*e.clip, scene.step.grid()) : "";
     if (!clipped.empty()) legend.notes.push_back("drawn inside " + clipped + " only");
     if (const auto* sweep = sweepOf(e); sweep && e.keep && sweepsBeyond(*sweep, *e.keep))

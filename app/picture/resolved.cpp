@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "app/choices/choice_text.h"
 #include "app/choices/first_choice.h"
@@ -94,13 +97,14 @@ RangeSet finitePart(const RangeSet& animation, const Extent& data) {
     return within;
 }
 
-// Of data that are classes: a layer each, but for the class that most points have. None where that
-// is one, or more than have colours.
+// Of data that are classes: a layer each, but for the class that most points have; the most common
+// that have colours. None where that is one, or where they are too many to be classes.
 std::vector<LayerChoice> classLayers(const Steps& sampled) {
+    constexpr std::size_t kMostClasses = 256;
     std::map<double, std::uint64_t> points;
     for (const auto& [index, step] : sampled) {
         if (!step->ofCategories()) return {};
-        for (std::uint64_t at = 0; at < step->size() && points.size() <= kLayerColors.size() + 1;) {
+        for (std::uint64_t at = 0; at < step->size() && points.size() <= kMostClasses;) {
             const timeseries::Number value = step->value(at);
             if (timeseries::compare(timeseries::toDouble(value), value) != 0)
                 return {};  // of more than 53 bits
@@ -109,11 +113,16 @@ std::vector<LayerChoice> classLayers(const Steps& sampled) {
             at += count;
         }
     }
-    if (points.size() < 3 || points.size() > kLayerColors.size() + 1) return {};
-    points.erase(
-        std::ranges::max_element(points, {}, [](const auto& each) { return each.second; }));
+    if (points.size() < 3 || points.size() > kMostClasses) return {};
+    std::vector<std::pair<std::uint64_t, double>> common;
+    for (const auto& [value, count] : points) common.emplace_back(count, value);
+    std::ranges::stable_sort(common, std::greater<>(), &std::pair<std::uint64_t, double>::first);
+    const std::size_t shown = std::min(common.size() - 1, kLayerColors.size());
+    std::vector<double> values;
+    for (std::size_t i = 1; i <= shown; ++i) values.push_back(common[i].second);
+    std::ranges::sort(values);
     std::vector<LayerChoice> layers;
-    for (const auto& [value, count] : points)
+    for (const double value : values)
         layers.push_back(
             {.ranges = RangeSet(std::vector{Range{{value}, {value}}}), .color = {}, .opacity = {}});
     return layers;

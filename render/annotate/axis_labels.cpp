@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <span>
+#include <utility>
 
 #include "render/annotate/fitted_text.h"
 #include "render/annotate/labelled_edges.h"
@@ -58,8 +60,10 @@ class Labelling {
         auto along = stretches(page_, shown.edge.axis);
         std::erase_if(along, [&](const Stretch& s) { return s.pixels() < page_.line(); });
         // Not std::ranges': clang 14 does not compile it with GCC 12's library.
-        std::stable_partition(along.begin(), along.end(),
-                              [&](const Stretch& s) { return s.edge.side == shown.edge.side; });
+        const auto end = std::stable_partition(along.begin(), along.end(), [&](const Stretch& s) {
+            return s.edge.side == shown.edge.side;
+        });
+        const std::span<const Stretch> own(along.begin(), end), others(end, along.end());
         if (text.empty() || along.empty()) return;
         constexpr std::ptrdiff_t kAll = 1000, kTwo = 2;
         std::vector<Words> names = {wordsOf(page_, text)};
@@ -67,10 +71,13 @@ class Labelling {
             names.push_back(wordsOf(page_, shortened(page_.font, page_.style, text,
                                                      static_cast<float>(lines * page_.line()))));
         std::erase_if(names, [](const Words& name) { return name.text.empty(); });
-        for (const Words& name : names)
-            if (placeBeside(shown, along, name, kAll) || placeBeside(shown, along, name, kTwo) ||
-                placeAround(shown, along, name, kTwo))
-                return;
+        for (const Words& name : names) {
+            for (const std::ptrdiff_t keep : {kAll, kTwo})
+                if (placeBeside(shown, own, name, keep) || placeAtEnds(shown, own, name, keep) ||
+                    placeBeside(shown, others, name, keep))
+                    return;
+            if (placeAround(shown, along, name, kTwo)) return;
+        }
         if (!names.empty()) placeAround(shown, along, names.back(), 0);
     }
 
@@ -110,9 +117,8 @@ class Labelling {
         return farthest;
     }
 
-    // Beyond the numbers, as near the middle as there is room; else between two of them; else at
-    // another edge.
-    bool placeBeside(AxisLabels& shown, const std::vector<Stretch>& along, const Words& name,
+    // Beyond the numbers, as near the middle as there is room; else between two of them.
+    bool placeBeside(AxisLabels& shown, std::span<const Stretch> along, const Words& name,
                      std::ptrdiff_t keep) {
         const double near = tickLength(page_.style) + page_.gap();
         for (const Stretch& stretch : along) {
@@ -130,8 +136,33 @@ class Labelling {
         return false;
     }
 
+    // Where the edge ends, in its direction or leaning from it: the upper end first.
+    bool placeAtEnds(AxisLabels& shown, std::span<const Stretch> along, const Words& name,
+                     std::ptrdiff_t keep) {
+        for (const Stretch& stretch : along) {
+            if (!stretch.outline) return false;
+            struct End {
+                glm::dvec3 at;
+                glm::dvec2 towards;
+            };
+            const glm::dvec2 way = glm::normalize(stretch.to - stretch.from);
+            std::array ends = {End{stretch.a, -way}, End{stretch.b, way}};
+            if (ends[0].towards.y > ends[1].towards.y) std::swap(ends[0], ends[1]);
+            for (const End& end : ends)
+                for (const double lean : {0.0, 0.5, 1.0})
+                    if (tryName(shown,
+                                centred(name, end.at,
+                                        beyond(name,
+                                               glm::normalize(end.towards + lean * stretch.outward),
+                                               page_.gap())),
+                                kLeastLabelMargin, keep))
+                        return true;
+        }
+        return false;
+    }
+
     // On any side of the edges, as near as there is room, rather outward than on the box.
-    bool placeAround(AxisLabels& shown, const std::vector<Stretch>& along, const Words& name,
+    bool placeAround(AxisLabels& shown, std::span<const Stretch> along, const Words& name,
                      std::ptrdiff_t keep) {
         constexpr int kDirections = 16;
         for (double lines = 0; lines <= 4; lines += 0.5)

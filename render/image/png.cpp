@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cerrno>
 #include <cmath>
 #include <csetjmp>
+#include <cstdio>
 #include <cstring>
 #include <span>
+#include <system_error>
 
 #include "render/image/color.h"
 #include "render/image/encode_srgb.h"
@@ -197,8 +200,11 @@ void writePng(const std::filesystem::path& file, const Image& image, const Metad
     PartialFile out(file);
     Writer writer;
     const auto check = [&](bool succeeded) {
-        if (!succeeded)
-            throw ImageError(file, std::string("cannot be written: ") + writer.failure.text.data());
+        if (succeeded) return;
+        const bool isOfFile = std::ferror(out.stream()) != 0;  // which libpng does not tell why
+        throw ImageError(
+            file, "cannot be written: " + (isOfFile ? std::generic_category().message(errno)
+                                                    : std::string(writer.failure.text.data())));
     };
     png_init_io(writer.png, out.stream());
     check(succeeds(writer.png,

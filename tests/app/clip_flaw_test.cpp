@@ -48,5 +48,18 @@ TEST(ClipFlaw, OfAMeshIsOnlyBesideIt) {
     EXPECT_THAT(flawOf("min:max,min:max,-2:-1"), HasSubstr("z, from 0 to 2"));
 }
 
+// It is in the box of another step, and has points where it is.
+TEST(ClipFlaw, OfAMeshThatMovesIsBesideItsPlace) {
+    const auto at = [](double x) {
+        return tests::curvilinear(
+            {4, 3, 3}, [x](double i, double j, double k) { return glm::dvec3(x + i, j, k); });
+    };
+    const auto moved = gridOfStep(at(0), at(10));
+    const auto flawOf = [&](const char* clip) { return clipFlaw(parseClip(clip), *moved); };
+    EXPECT_EQ(flawOf("11.5:12.5,min:max,min:max"), "");
+    EXPECT_THAT(flawOf("1.5:2.5,min:max,min:max"), HasSubstr("x, from 10 to 13 m, has none"));
+    EXPECT_THAT(flawOf("14:15,min:max,min:max"), HasSubstr("x, from 10 to 13 m, has none"));
+}
+
 }  // namespace
 }  // namespace app

@@ -37,6 +37,23 @@ TEST(TimeText, ATimeMayBeCalledStep) {
     EXPECT_EQ(timeText(forecast, 1), "12 hours");
 }
 
+// So that what stands in a movie's pictures, or below each other in a table, does not jump.
+TEST(TimeText, HasAsManyDecimalsAsItsNeighbours) {
+    TimeAxis axis{"time", "s", "", {}};
+    for (int i = -2; i < 19; ++i) axis.points.push_back({0.05 * i, ""});
+    EXPECT_EQ(timeText(axis, 0), "-0.10 s");
+    EXPECT_EQ(timeText(axis, 1), "-0.05 s");
+    EXPECT_EQ(timeText(axis, 2), "0.00 s");
+    EXPECT_EQ(timeText(axis, 4), "0.10 s");
+    EXPECT_EQ(timeText(axis, 20), "0.90 s");
+    const TimeAxis whole{"cycle", "", "", {{0, ""}, {20, ""}, {1e12, ""}, {0.25, ""}}};
+    EXPECT_EQ(timeText(whole, 0), "cycle 0.00");
+    EXPECT_EQ(timeText(whole, 2), "cycle 1e+12");
+    const TimeAxis uneven{"time", "s", "", {{0, ""}, {1, ""}, {1.125, ""}, {2.5, ""}}};
+    EXPECT_EQ(timeText(uneven, 1), "1.0 s");
+    EXPECT_EQ(timeText(uneven, 2), "1.125 s") << "no digit of its own is lost";
+}
+
 TEST(TimeText, KeepsTheDigitsOfStoredFloats) {
     const TimeAxis axis{"time", "s", "", {{0.1, ""}, {1.0 / 3, ""}, {1234567.5, ""}, {1e300, ""}}};
     EXPECT_EQ(timeText(axis, 0), "0.1 s");

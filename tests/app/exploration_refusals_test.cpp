@@ -48,8 +48,9 @@ TEST(Exploration, AStepThatCanBeReadNoLongerIsToldAndClosed) {
     EXPECT_FALSE(exploration.reading([&] { (void)shown->columns(); }));
     EXPECT_TRUE(exploration.shown()) << "somebody may be drawing it";
     exploration.advance(16ms);
-    EXPECT_THAT(exploration.messages().back().text, AllOf(HasSubstr("u.isostep is a damaged index"),
-                                                          HasSubstr("nothing is shown any more")));
+    EXPECT_THAT(exploration.messages().back().text,
+                AllOf(HasSubstr("u.isostep is a damaged sorted step"),
+                      HasSubstr("nothing is shown any more")));
     EXPECT_FALSE(exploration.shown());
     EXPECT_EQ(exploration.explorer(), Explorer());
     EXPECT_FALSE(exploration.canUndo());
@@ -63,7 +64,8 @@ TEST(Exploration, AStepThatCannotBeSelectedFromIsRefusedAndWhatIsShownStays) {
     while (exploration.opening()) exploration.advance(16ms);
     exploration.open(std::vector{damagedStep(true)});
     while (exploration.opening()) exploration.advance(16ms);
-    EXPECT_THAT(exploration.messages().back().text, HasSubstr("u.isostep is a damaged index"));
+    EXPECT_THAT(exploration.messages().back().text,
+                HasSubstr("u.isostep is a damaged sorted step"));
     ASSERT_TRUE(exploration.shown());
     EXPECT_EQ(exploration.shown()->dataset.variable.name, "T");
 }

@@ -305,6 +305,8 @@ TEST(Options, AnEmptyTextIsNoChoiceThatWasNotMade) {
     refused({"count", "a.nc", "--range", "0:1", "--keep", ""});
     refused({"count", "a.nc", "--range", "0:1", "--step", ""});
     refused({"count", "a.nc", "--range", ""});
+    EXPECT_EQ(refused({"count", "a.nc", "--range=", "--cache", "off"}),
+              "--range= has no value (see isochron --help)");
     refused({"render", "a.nc", "-o", ""});
     refused({"render", "", "-o", "o.png"});
     refused({"info", ""});

@@ -177,12 +177,18 @@ TEST(FirstLayers, OfClassesAreOneEachButForTheMostCommon) {
         colors.insert({color.r, color.g, color.b});
     }
     EXPECT_EQ(colors.size(), 3u);
-    // As many as have colours; a mask, and what is no class, are chosen from as ever.
+    // The most common that have colours; a mask, and what is no class, are chosen from as ever.
     std::vector<std::pair<int, std::size_t>> many{{100, 1000}};
     for (int i = 0; i < static_cast<int>(kLayerColors.size()); ++i) many.emplace_back(i, 10);
     EXPECT_EQ(firstOfClasses(many).layers.size(), kLayerColors.size());
-    many.emplace_back(200, 10);
-    EXPECT_EQ(firstOfClasses(many).layers.size(), 1u);
+    many.insert(many.begin() + 1, {200, 11});
+    many.emplace_back(220, 9);
+    const Explorer some = firstOfClasses(many);
+    ASSERT_EQ(some.layers.size(), kLayerColors.size());
+    EXPECT_EQ(some.layers.front().ranges, RangeSet::parse("0"));
+    EXPECT_EQ(some.layers.back().ranges, RangeSet::parse("200"));
+    many.emplace_back(221, 8);
+    EXPECT_EQ(firstOfClasses(many).layers, some.layers);
     EXPECT_EQ(firstOfClasses({{0, 50}, {1, 10}}).layers.size(), 1u);
     EXPECT_EQ(firstOfClasses({{7, 50}}).layers.size(), 1u);
     EXPECT_EQ(firstOfClasses({{0, 50}, {2, 10}, {1, 1}, {255, 20}}, false).layers.size(), 1u);

@@ -32,8 +32,10 @@ bool hasLineNear(const Image& lines, const glm::ivec2& at, int reach) {
 }
 
 // White light of optical depth t is 1 - e^-t: here of the coarse picture's depth, between its
-// pixels. Lines hide what lies behind them, in coarse pixels too: there nothing is looked at.
+// pixels. Lines hide what lies behind them, in coarse pixels too, and texts have their ground about
+// them: there nothing is looked at.
 TEST_P(CoarsePlanes, HaveTheDepthOfTheCoarsePictureBetweenItsPixels) {
+    constexpr int kGround = 8;
     for (const glm::ivec2 size : {glm::ivec2(200, 160), glm::ivec2(201, 161)})
         for (const int across : {2, 3}) {
             const View view = tests::lookFrom({0.4, -2.7, 0.9}, size);
@@ -48,7 +50,7 @@ TEST_P(CoarsePlanes, HaveTheDepthOfTheCoarsePictureBetweenItsPixels) {
             double most = 0;
             for (int y = 0; y < size.y; ++y)
                 for (int x = 0; x < size.x; ++x) {
-                    if (hasLineNear(lines, {x, size.y - 1 - y}, 2 * across)) continue;
+                    if (hasLineNear(lines, {x, size.y - 1 - y}, kGround)) continue;
                     const double t = double(depth[std::size_t(y * size.x + x)]);
                     ASSERT_NEAR(light.at(x, size.y - 1 - y).r, 1 - std::exp(-t), 1e-3)
                         << x << ' ' << y << ' ' << across;

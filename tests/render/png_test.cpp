@@ -264,6 +264,21 @@ TEST(Png, AFailedWriteLeavesNothingBehind) {
     EXPECT_EQ(entries, 1);
 }
 
+// The device takes nothing, as a full disk; a picture of which more than a stream's buffer is
+// written fails within libpng, a small one when it is closed.
+TEST(Png, AFullDiskIsToldAsTheSystemTellsIt) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    const std::string expected = std::generic_category().message(ENOSPC);
+    for (const Image& image : {noise({300, 700}, true), everyStep()}) {
+        try {
+            writePng("/dev/full", image);
+            FAIL() << "written";
+        } catch (const ImageError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(expected));
+        }
+    }
+}
+
 TEST(Png, WritingReplacesTheOldFileAndLeavesOnlyIt) {
     const auto folder = freshFolder();
     writeBytes(folder / "picture.png", "old");

@@ -151,12 +151,12 @@ TEST_F(DeskOpens, ASavedSessionAsTheSamePixels) {
         desk.drag({400, 300}, {520, 340});
         desk.moveAway();
         desk.press("Home");
-        desk.waitForTitle("0.5 s");
+        desk.waitForTitle("0.50 s");
         first = desk.settled(at.clear);
         saved(desk, file);
     }
     Driver desk(screen(), folder(), {"--session", file.string()});
-    desk.waitForTitle("0.5 s");
+    desk.waitForTitle("0.50 s");
     EXPECT_EQ(differing(desk.settled(at.clear), first), 0u);
 }
 

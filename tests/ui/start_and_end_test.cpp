@@ -54,7 +54,7 @@ TEST_F(DeskEnds, WithTheSessionWhereItsWindowOrItsConnectionIsTakenAway) {
         Driver desk(screen(), folder(), {demo().string()});
         desk.waitForTitle("pool_fire_T.nc · T");
         desk.press("Home");
-        desk.waitForTitle("0.5 s");
+        desk.waitForTitle("0.50 s");
         (desk.*take)();
         EXPECT_EQ(desk.process().exitCode(), 1);
         EXPECT_THAT(desk.process().errors(),

@@ -18,7 +18,7 @@ class DeskTakesAway : public DeskTest {
     // The screenshot, which is also what the copied command line makes.
     Shot checkedScreenshot(Driver& desk) {
         desk.press("F12");
-        const auto file = folder() / "pool_fire_T_0000.png";
+        const auto file = folder() / "pool_fire_T_screenshot_0000.png";
         desk.waitFor("the screenshot is written", [&] { return std::filesystem::exists(file); });
         desk.press("ctrl+c");
         EXPECT_EQ(shell(folder(), desk.clipboard()), 0) << desk.clipboard();
@@ -56,7 +56,7 @@ TEST_F(DeskTakesAway, TheScreenshotThatTheCopiedCommandLineMakes) {
     desk.drag({500, 400}, {640, 380});
     desk.moveAway();
     desk.press("End");
-    desk.waitForTitle("2 s");
+    desk.waitForTitle("2.00 s");
     const Places at = placesOf(desk.size());
     const Shot seen = desk.settled(at.clear);
     const Shot written = part(checkedScreenshot(desk), at.clear);

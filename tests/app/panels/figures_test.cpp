@@ -76,6 +76,18 @@ TEST(Figures, StateTheErrorOnceItIsKnown) {
     }
 }
 
+// Until this picture's own is known.
+TEST(Figures, SayOfAnotherPicturesErrorThatItWas) {
+    tests::ScriptedExploration desk;
+    Performance p = sevenPoints();
+    p.isErrorOfAnother = true;
+    for (const auto& [error, text] : {std::pair(0.0004, "7 points drawn  ·  error was below 0.1 %"),
+                                      {0.0041, "7 points drawn  ·  error was about 0.4 %"}}) {
+        p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = error}}};
+        EXPECT_EQ(figuresOf(p, desk.exploration.series()).front(), text);
+    }
+}
+
 // Where colours are mixed, the same line says what that costs.
 TEST(Figures, StateTheErrorOfLightWhereColoursAreMixed) {
     tests::ScriptedExploration desk;

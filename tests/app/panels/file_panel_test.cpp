@@ -1,8 +1,10 @@
-// What is asked before files are written over.
+// What is said of a path that is typed: nothing is there, or files would be written over.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
+#include "app/panels/file_panel.h"
 #include "tests/support/files.h"
 #include "tests/support/panels_desk.h"
 
@@ -17,19 +19,23 @@ class ExportFiles : public testing::Test {
         desk_->interface.obey(desk_->exploration, Command::Export);
         desk_->frames(3);
     }
-    // Enter in the field of the path; where to export is asked for then.
-    std::optional<std::filesystem::path> enter() {
+    void press() {
         bool& down = ImGui::GetIO().KeysDown[static_cast<int>(Key::Enter)];
         down = true;
         desk_->frame(KeyPress{.key = Key::Enter});
-        const auto asked = desk_->asked.exportTo;
+        pressed_ = desk_->asked;
         down = false;
         desk_->frames(4);
-        return asked;
+    }
+    // Enter in the field of the path; where to export is asked for then.
+    std::optional<std::filesystem::path> enter() {
+        press();
+        return pressed_.exportTo;
     }
 
     const std::filesystem::path folder_ = tests::freshFolder();
     std::optional<tests::PanelsDesk> desk_;
+    Requests pressed_;
 };
 
 // As the window suggests, into world.png: world_0.png, world_1.png and world_2.png.
@@ -42,6 +48,55 @@ TEST_F(ExportFiles, AreAskedAboutWhereTheyExist) {
     tests::writeBytes(folder_ / "world_1.png", "");
     EXPECT_EQ(enter(), std::nullopt);
     EXPECT_EQ(enter(), folder_ / "world.png") << "asked for again";
+}
+
+// The panel stays, with what was typed, and is right at the next try.
+TEST_F(ExportFiles, AreNotWrittenWhereNoFolderIs) {
+    desk_->type((folder_ / "later/world.png").string());
+    EXPECT_EQ(enter(), std::nullopt);
+    EXPECT_EQ(enter(), std::nullopt);
+    std::filesystem::create_directory(folder_ / "later");
+    EXPECT_EQ(enter(), folder_ / "later/world.png");
+}
+
+TEST_F(ExportFiles, EndAsPicturesDo) {
+    desk_->type("world.jpg");
+    EXPECT_EQ(enter(), std::nullopt);
+    desk_->type("world.exr");
+    EXPECT_EQ(enter(), folder_ / "world.exr");
+}
+
+TEST_F(ExportFiles, OfAFolderMadeWhileItIsAskedAreAskedAbout) {
+    desk_->type((folder_ / "later/world.png").string());
+    EXPECT_EQ(enter(), std::nullopt);
+    std::filesystem::create_directory(folder_ / "later");
+    tests::writeBytes(folder_ / "later/world_2.png", "");
+    EXPECT_EQ(enter(), std::nullopt);
+    EXPECT_EQ(enter(), folder_ / "later/world.png");
+}
+
+class FileToOpen : public ExportFiles {
+ protected:
+    FileToOpen() {
+        desk_.emplace();
+        desk_->interface.obey(desk_->exploration, Command::Open);
+        desk_->frames(3);
+    }
+};
+
+TEST_F(FileToOpen, IsAskedForUntilItIsThere) {
+    desk_->type((folder_ / "field.nc").string());
+    press();
+    EXPECT_THAT(pressed_.open, testing::IsEmpty());
+    tests::writeBytes(folder_ / "field.nc", "");
+    press();
+    EXPECT_THAT(pressed_.open, testing::ElementsAre(folder_ / "field.nc"));
+}
+
+TEST_F(FileToOpen, MayBeAPatternOfNames) {
+    desk_->type((folder_ / "field_*.nc").string());
+    press();
+    EXPECT_THAT(pressed_.open, testing::ElementsAre(folder_ / "field_*.nc"));
 }
 
 }  // namespace

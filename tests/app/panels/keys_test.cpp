@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/panels/focus.h"
@@ -62,6 +63,32 @@ TEST(Keys, NeverReachThePictureWhileFilesOrAPopupStandBeforeIt) {
     desk.press(Key::Escape);
     desk.frames(2);
     EXPECT_GT(commandsOf(desk, kCommands), 5u);
+}
+
+// As Enter does: what is typed is of the session that is saved, and nothing typed later lands in
+// the field.
+TEST(Keys, OfFilesTakeWhatIsTyped) {
+    for (const KeyPress& press :
+         {KeyPress{.key = key('S'), .ctrl = true}, KeyPress{.key = key('E'), .ctrl = true},
+          KeyPress{.key = Key::F12}}) {
+        std::filesystem::current_path(tests::freshFolder());
+        tests::PanelsDesk desk;
+        const Rect layers = sideLayout(desk.layout(), 1).layers;
+        const auto& controls = focus().controls();
+        const auto field = std::ranges::find_if(controls, [&](const Focus::Control& c) {
+            return c.takes == Focus::Takes::Typing && layers.holds(c.at.centre());
+        });
+        ASSERT_NE(field, controls.end());
+        desk.click(field->at.centre());
+        desk.type("5:9");
+        EXPECT_NE(desk.exploration.explorer().layers[0].ranges, timeseries::RangeSet::parse("5:9"));
+        desk.frame(press);
+        EXPECT_EQ(desk.exploration.explorer().layers[0].ranges, timeseries::RangeSet::parse("5:9"));
+        EXPECT_EQ(desk.asked.commands.size(), 1u);
+        desk.type("zzz");
+        EXPECT_EQ(desk.exploration.explorer().layers[0].ranges, timeseries::RangeSet::parse("5:9"));
+        EXPECT_TRUE(desk.exploration.messages().empty());
+    }
 }
 
 }  // namespace
