@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -19,10 +21,28 @@ using timeseries::sortPacked;
 using timeseries::valueOfKey;
 using timeseries::WideKey;
 
+// Its memory was malloc's, in small pages: what is new in large ones (app/large_allocations.cpp) is
+// today's.
+template <typename T>
+struct SmallPages {
+    using value_type = T;
+    SmallPages() = default;
+    template <typename Other>
+    explicit SmallPages(const SmallPages<Other>&) {}
+    T* allocate(std::size_t count) {
+        if (void* const at = std::malloc(count * sizeof(T))) return static_cast<T*>(at);
+        throw std::bad_alloc();
+    }
+    void deallocate(T* at, std::size_t) noexcept { std::free(at); }
+    friend bool operator==(const SmallPages&, const SmallPages&) { return true; }
+};
+template <typename T>
+using Vector = std::vector<T, SmallPages<T>>;
+
 template <typename T>
 struct SortedPairs {
-    std::vector<T> values;             // ascending
-    std::vector<std::uint32_t> index;  // grid index of each value
+    Vector<T> values;             // ascending
+    Vector<std::uint32_t> index;  // grid index of each value
 };
 
 template <typename T, typename Keep>
@@ -47,7 +67,8 @@ SortedPairs<T> countingSort(std::span<const T> field, std::size_t kept, const Ke
 template <typename T, typename Keep>
 SortedPairs<T> packedSort(std::span<const T> field, std::size_t kept, const Keep& keep) {
     using Key = std::conditional_t<sizeof(T) == 4, std::uint64_t, WideKey>;
-    const auto keys = std::make_unique_for_overwrite<Key[]>(kept);
+    const std::unique_ptr<Key[], void (*)(void*)> keys(
+        static_cast<Key*>(std::malloc(kept * sizeof(Key))), std::free);
     std::size_t n = 0;
     for (std::size_t i = 0; i < field.size(); ++i) {
         if (!keep(i)) continue;
@@ -58,7 +79,7 @@ SortedPairs<T> packedSort(std::span<const T> field, std::size_t kept, const Keep
         }
     }
     sortPacked(std::span(keys.get(), kept));
-    SortedPairs<T> out{std::vector<T>(kept), std::vector<std::uint32_t>(kept)};
+    SortedPairs<T> out{Vector<T>(kept), Vector<std::uint32_t>(kept)};
     for (std::size_t i = 0; i < kept; ++i) {
         if constexpr (sizeof(T) == 4) {
             out.values[i] = valueOfKey<T>(static_cast<std::uint32_t>(keys[i] >> 32));
