@@ -101,7 +101,7 @@ std::size_t decimalsOf(std::string_view number) {
 
 // With as many decimals as the others of the axis, so that a movie's do not jump. Of even steps the
 // first two have the most that any has; many come from rounding, and are as they are.
-std::string numberOf(const timeseries::TimeAxis& axis, std::size_t step) {
+std::string numberText(const timeseries::TimeAxis& axis, std::size_t step) {
     constexpr std::size_t kMost = 6;
     const auto text = [&](std::size_t i) { return fmt::format("{:.10g}", axis.points[i].value); };
     std::string number = text(step);
@@ -123,7 +123,7 @@ std::string timeText(const timeseries::TimeAxis& axis, std::size_t step) {
     if (!point.date.empty()) return point.date;
     if (axis.counted) return fmt::format("step {}", step);
     if (std::isnan(point.value)) return "no " + axis.name;
-    const std::string number = numberOf(axis, step);
+    const std::string number = numberText(axis, step);
     return render::shownUnit(axis.units).empty() ? axis.name + " " + number
                                                  : number + " " + axis.units;
 }

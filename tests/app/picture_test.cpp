@@ -10,7 +10,6 @@
 
 #include "app/choices/choice_text.h"
 #include "app/choices/sweep_edits.h"
-#include "tests/support/meshes.h"
 #include "tests/support/picture_of_a_ramp.h"
 #include "tests/support/scenes.h"
 
@@ -66,33 +65,6 @@ TEST_F(PictureOfARamp, EachLayerMayHaveAModelOfItsOwn) {
     EXPECT_THAT(pictureOf(e).legend.notes, testing::Contains("layers 2 and 3 by points alone"));
     e.layers[1].visible = false;
     EXPECT_THAT(pictureOf(e).legend.notes, testing::Contains("layer 3 by points alone"));
-}
-
-// All steps are drawn in the box of the first.
-TEST(LegendOfAMeshThatMoves, SaysWhereItHasLeftTheBox) {
-    const auto at = [](double x) {
-        return tests::curvilinear(
-            {4, 3, 3}, [x](double i, double j, double k) { return glm::dvec3(x + i, j, k); });
-    };
-    timeseries::Variable variable;
-    variable.time = std::make_shared<const timeseries::TimeAxis>(
-        timeseries::TimeAxis{"time", "s", "", std::vector(2, timeseries::TimePoint{})});
-    const auto notesOf = [&](const std::shared_ptr<const timeseries::Grid>& grid) {
-        const SortedStep step =
-            tests::stepOf(grid, [&](std::size_t i) { return static_cast<double>(i); });
-        Explorer e;
-        e.layers.push_back({RangeSet::parse("2:5"), glm::dvec3(1, 0, 0), 0.5});
-        e.model = Model::Points;
-        return makeLegend(e, variable, 1, makeScene(e, step, render::PlacedPoints(*grid))).notes;
-    };
-    const auto first = at(0);
-    EXPECT_THAT(notesOf(gridOfStep(first, at(10))),
-                testing::Contains("beyond the box, which is the first step's: x, 10 to 13 m"));
-    for (const auto& within :
-         {first, gridOfStep(first, tests::curvilinear({4, 3, 3}, [](double i, double j, double k) {
-                                return glm::dvec3(0.5 * i, 0.5 * j, 0.5 * k);
-                            }))})
-        EXPECT_THAT(notesOf(within), testing::Each(testing::Not(HasSubstr("box"))));
 }
 
 // Where a splat ends at the domain's faces, it has no place among cells.

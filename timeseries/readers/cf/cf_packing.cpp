@@ -17,7 +17,6 @@ namespace {
 
 using Malformed = std::function<void(const std::string&)>;
 
-bool floating(ValueType type) { return type == ValueType::F32 || type == ValueType::F64; }
 bool wide(ValueType type) { return type == ValueType::I64 || type == ValueType::U64; }
 
 // The other signedness, for the attribute _Unsigned: classic files have no unsigned types.

@@ -31,6 +31,8 @@ struct Packing {
     double unpack(double number) const { return scaled ? number * scale + offset : number; }
 };
 
+inline bool floating(ValueType type) { return type == ValueType::F32 || type == ValueType::F64; }
+
 // NetCDF's fill for what was never written; bytes have none, for every byte may be meant
 // (NetCDF User's Guide, "Attribute Conventions", _FillValue).
 std::optional<Number> defaultFill(ValueType stored);
