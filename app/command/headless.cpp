@@ -73,12 +73,16 @@ DepthErrors errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& s
                          eyes(e.view, e.stereo, outline, e.size).front(), std::span(&drawn, 1));
 }
 
-std::string errorText(const DepthErrors& errors) {
+// How opaque a passage is drawn is chosen, and no error.
+std::string errorText(const DepthErrors& errors, const Explorer& e) {
     if (errors.rungs.empty()) return "";
     const RungError& error = errors.rungs.front();
     const std::string depth = depthErrorText(error.depth);
     if (depth.empty()) return "";
-    return depth + " of optical depth" + lightErrorText(error, errors.ordering);
+    const bool isByLength =
+        modelOf(e) == Model::Points || e.opacityPer == render::OpacityPer::Length;
+    return depth + " of optical depth" + (isByLength ? "" : " by length") +
+           lightErrorText(error, errors.ordering);
 }
 
 // What all pictures have said of their error: that of the one in the middle, since working it out
@@ -96,7 +100,7 @@ MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSourc
         if (!hasDepthError(*step)) return error;
         const DepthErrors errors = errorOf(e, middle, *step);
         error.depth = errors.of({modelOf(e)});
-        error.text = errorText(errors);
+        error.text = errorText(errors, e);
     } catch (const timeseries::FileError&) {
         // What cannot be read is told when its turn comes, after the pictures before it.
     }

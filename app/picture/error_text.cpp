@@ -26,6 +26,8 @@ std::string rungText(const Rung& rung) {
 
 std::string shareText(double error) {
     if (!std::isfinite(error)) return "not known";  // beside a truth that is nothing
+    constexpr double kMostTold = 10;                // beside a truth that is nearly nothing
+    if (error > kMostTold) return "above 1000 %";
     const double percent = 100 * error;
     if (error < kLeastTold) return "below 0.1 %";
     return fmt::format("{:.{}f} %", percent, percent < 1 ? 1 : 0);
@@ -33,7 +35,9 @@ std::string shareText(double error) {
 
 std::string depthErrorText(double error) {
     if (!std::isfinite(error)) return "";
-    return (error < kLeastTold ? "error " : "error about ") + shareText(error);
+    const std::string share = shareText(error);
+    return (share.starts_with("below") || share.starts_with("above") ? "error " : "error about ") +
+           share;
 }
 
 std::string lightErrorText(const RungError& error, Ordering ordering) {

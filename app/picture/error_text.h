@@ -10,7 +10,7 @@ namespace app {
 
 // "cells", "points", "1 of 8 points".
 std::string rungText(const Rung& rung);
-// "0.4 %", "12 %", "below 0.1 %".
+// "0.4 %", "12 %", "below 0.1 %", "above 1000 %".
 std::string shareText(double error);
 // "error about 0.4 %"; "" where it is none that can be told.
 std::string depthErrorText(double error);

@@ -129,15 +129,20 @@ Real meanRamp(Real a, Real b) {
     return ((xb - xa) * (xb + xa) / 2 + (std::max(b, Real(1)) - std::max(a, Real(1)))) / between;
 }
 
-// One that only touches the range takes nothing of it.
+inline bool touches(double least, double greatest, double lo, double hi) {
+    return least <= hi && greatest >= lo;
+}
+// One that only touches the range has no length in it.
 inline bool reaches(double least, double greatest, double lo, double hi) {
-    return least < greatest ? least < hi && greatest > lo : least <= hi && greatest >= lo;
+    return least < greatest ? least < hi && greatest > lo : touches(least, greatest, lo, hi);
 }
 
 // The range in a cell, or a tetrahedron, whose least and greatest corners are these, and of which f
-// changes over the unit length l by `mostPerUnit` at most.
+// changes over the unit length l by `mostPerUnit` at most. False where it takes nothing of it: of a
+// passage that counts however thin it is, also one that touches the range has what a pixel sees of
+// it on this side of the end.
 template <typename Real, template <typename> typename Splat, typename Valued>
-void seeRange(Splat<Real>& s, const Valued& cell, double least, double greatest,
+bool seeRange(Splat<Real>& s, const Valued& cell, double least, double greatest,
               double mostPerUnit) {
     const auto within = [&](double end) {  // in halves, the whole may overflow
         return 2 * ((0.5 * end - 0.5 * s.reference) / s.extent);
@@ -148,7 +153,7 @@ void seeRange(Splat<Real>& s, const Valued& cell, double least, double greatest,
     s.crossesMost = isThin || greatest > cell.hi;
     if (s.crossesLeast) s.least = static_cast<Real>(within(cell.lo));
     if (s.crossesMost) s.most = static_cast<Real>(within(cell.hi));
-    if (!isThin) return;
+    if (!isThin) return reaches(least, greatest, cell.lo, cell.hi);
     // Both ends, also one that the cell does not reach: what a pixel sees of the field beyond the
     // other is not in the range.
     const Real middle = (s.least + s.most) / 2;
@@ -156,6 +161,7 @@ void seeRange(Splat<Real>& s, const Valued& cell, double least, double greatest,
     s.least = middle - way;
     s.most = middle + way;
     s.perRange = 1 / (2 * way);
+    return true;
 }
 
 // What no view changes: the field in the cell, and the range. False where the cell takes nothing of
@@ -163,7 +169,7 @@ void seeRange(Splat<Real>& s, const Valued& cell, double least, double greatest,
 template <typename Real>
 bool seeField(CellSplat<Real>& s, const ValuedCell& cell, double unitLength) {
     const auto [lo, hi] = std::minmax_element(cell.corners.begin(), cell.corners.end());
-    if (!reaches(*lo, *hi, cell.lo, cell.hi)) return false;
+    if (!touches(*lo, *hi, cell.lo, cell.hi)) return false;
     s.reference = 0.5 * *lo + 0.5 * *hi;
     s.extent = 0.5 * *hi - 0.5 * *lo;
     if (!(s.extent > 0)) return true;
@@ -172,8 +178,7 @@ bool seeField(CellSplat<Real>& s, const ValuedCell& cell, double unitLength) {
     f = cell::coefficients(f);
     for (std::size_t c = 0; c < 8; ++c) s.f[c] = static_cast<Real>(f[c]);
     // f changes by no more than 2 along an edge.
-    seeRange(s, cell, *lo, *hi, 2 * glm::length(unitLength / (cell.to - cell.from)));
-    return true;
+    return seeRange(s, cell, *lo, *hi, 2 * glm::length(unitLength / (cell.to - cell.from)));
 }
 
 // Of a linear piece that is worth so much W, from value to value, over a pixel in which the field

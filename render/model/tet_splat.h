@@ -84,20 +84,20 @@ inline std::array<glm::dvec3, 4> slopesOf(const std::array<glm::dvec3, 4>& at) {
     return {-rows[0] - rows[1] - rows[2], rows[0], rows[1], rows[2]};
 }
 
-// What no view changes, of values between these.
+// What no view changes, of values between these. False where it takes nothing of the range.
 template <typename Real>
-void seeField(TetSplat<Real>& s, const ValuedTet& tet, double low, double high,
+bool seeField(TetSplat<Real>& s, const ValuedTet& tet, double low, double high,
               const std::array<glm::dvec3, 4>& slopes, double unitLength,
               std::array<double, 4>& f) {
     s.reference = 0.5 * low + 0.5 * high;
     s.extent = 0.5 * high - 0.5 * low;
-    if (!(s.extent > 0)) return;
+    if (!(s.extent > 0)) return true;
     for (std::size_t i = 0; i < 4; ++i) {
         f[i] = (tet.values[i] - s.reference) / s.extent;
         s.gradient += f[i] * slopes[i];
     }
     s.steepness = glm::length(s.gradient);
-    cell::seeRange(s, tet, low, high, s.steepness * unitLength);
+    return cell::seeRange(s, tet, low, high, s.steepness * unitLength);
 }
 
 }  // namespace tet
@@ -108,7 +108,7 @@ TetSplat<Real> tetSplatAt(const PointsView& view, const ValuedTet& tet) {
     constexpr double kFar = std::numeric_limits<double>::max();
     TetSplat<Real> s;
     const auto [low, high] = std::minmax_element(tet.values.begin(), tet.values.end());
-    if (!cell::reaches(*low, *high, tet.lo, tet.hi)) return s;
+    if (!cell::touches(*low, *high, tet.lo, tet.hi)) return s;
     const PixelRays& rays = view.rays;
     std::array<glm::dvec3, 4> seen;
     double nearest = kFar, farthest = -kFar;
@@ -122,8 +122,8 @@ TetSplat<Real> tetSplatAt(const PointsView& view, const ValuedTet& tet) {
     if (!(farthest > rays.near) || isFlat(tet.at, turnOf(tet.at))) return s;
     const std::array<glm::dvec3, 4> slopes = tet::slopesOf(tet.at);
     std::array<double, 4> f{};
-    s.visible = true;
-    tet::seeField(s, tet, *low, *high, slopes, view.unitLength, f);
+    s.visible = tet::seeField(s, tet, *low, *high, slopes, view.unitLength, f);
+    if (!s.visible) return s;
     std::array<double, 4> at{0.25, 0.25, 0.25, 0.25};
     if (nearest > rays.near) {
         constexpr double kMore = 0.01;  // than arithmetic loses

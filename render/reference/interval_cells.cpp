@@ -53,6 +53,27 @@ struct Octants {
     }
 };
 
+// Each corner without a value has the mean of those that have one and are the fewest edges away.
+void fillGaps(std::array<double, 8>& values) {
+    const std::array<double, 8> known = values;
+    for (unsigned c = 0; c < 8; ++c) {
+        std::array<std::vector<double>, 4> edgesAway;
+        for (unsigned other = 0; other < 8; ++other)
+            if (!std::isnan(known[other]))
+                edgesAway[(c ^ other) / 4 + (c ^ other) / 2 % 2 + (c ^ other) % 2].push_back(
+                    known[other]);
+        const auto nearest = std::ranges::find_if(
+            edgesAway, [](const std::vector<double>& some) { return !some.empty(); });
+        if (nearest == edgesAway.end()) return;
+        double quarters = 0;
+        for (const double v : *nearest) quarters += v / 4;
+        const auto [least, greatest] = std::ranges::minmax(*nearest);
+        if (std::isnan(known[c]))
+            values[c] = std::clamp(quarters * (4.0 / static_cast<double>(nearest->size())), least,
+                                   greatest);
+    }
+}
+
 unsigned octantOf(const glm::dvec3& place) {
     return (place.x < 0.5 ? 0u : 1u) + (place.y < 0.5 ? 0u : 2u) + (place.z < 0.5 ? 0u : 4u);
 }
@@ -78,8 +99,6 @@ IntervalCells::IntervalCells(const timeseries::Field& field, const IndexBox& cli
 IntervalCells::Corners IntervalCells::cornersOf(const glm::uvec3& cell) const {
     const glm::uvec3 points = size_ - 1u;
     Corners out{.least = kInfinity, .greatest = -kInfinity};
-    double eighths = 0;
-    int valid = 0;
     std::visit(
         [&](const auto& values) {
             for (unsigned c = 0; c < 8; ++c) {
@@ -92,17 +111,13 @@ IntervalCells::Corners IntervalCells::cornersOf(const glm::uvec3& cell) const {
                 const double v = isMissing ? kNan : finiteOrNan(static_cast<double>(values[i]));
                 out.values[c] = v;
                 if (std::isnan(v)) continue;
-                eighths += v / 8;
-                ++valid;
                 out.least = std::min(out.least, v);
                 out.greatest = std::max(out.greatest, v);
                 if (clip_.holds(p)) out.octants |= 1u << c;
             }
         },
         field_.values);
-    if (valid < 8)
-        for (double& v : out.values)
-            if (std::isnan(v)) v = std::clamp(eighths * (8.0 / valid), out.least, out.greatest);
+    fillGaps(out.values);
     return out;
 }
 

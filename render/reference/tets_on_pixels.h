@@ -76,16 +76,16 @@ class ReachBox {
 // then added up in their order is the same for any number of threads.
 inline constexpr std::size_t kCellParts = 16;
 
-// use(part, cell, tet, layer, pixel) for each pixel that may see a tetrahedron which reaches into
+// use(part, cell, tet, layer, pixel) for each pixel that may see a tetrahedron which touches
 // ranges of a layer. Looks at the scene's candidates, or without them at all of the field's cells.
 template <typename Use>
 void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const PointsView& view,
                       const PixelBins& pixels, unsigned threads, const Use& use) {
     withTets(scene.placed, field, scene.clip, [&](const auto& tets) {
         const ReachBox reachBox(view, tets.reach());
-        const auto reaches = [](double lo, double hi, const Layer& layer) {
+        const auto touches = [](double lo, double hi, const Layer& layer) {
             return std::ranges::any_of(layer.cells.ranges, [&](const auto& range) {
-                return cell::reaches(lo, hi, range.lo, range.hi);
+                return cell::touches(lo, hi, range.lo, range.hi);
             });
         };
         // Of the layers [first, last). Cells that are asked for by value lie anywhere: one place
@@ -99,7 +99,7 @@ void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const 
             tets.forEachTet(at, nullptr, mayBeSeen, [&](const MeshCells::Tetrahedron& tet) {
                 const auto [lo, hi] = std::ranges::minmax(tet.values);
                 for (std::size_t k = first; k < last; ++k)
-                    if (reaches(lo, hi, scene.layers[k]))
+                    if (touches(lo, hi, scene.layers[k]))
                         pixels.forEachIn(windowBox(view, tet.at),
                                          [&](std::size_t pixel) { use(part, at, tet, k, pixel); });
             });
@@ -126,7 +126,7 @@ void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const 
                 const auto at = static_cast<std::uint32_t>(i);
                 const std::pair extent = tets.extentOf(at);
                 if (std::ranges::any_of(scene.layers, [&](const Layer& of) {
-                        return reaches(extent.first, extent.second, of);
+                        return touches(extent.first, extent.second, of);
                     }))
                     look(part, at, 0, scene.layers.size());
             }

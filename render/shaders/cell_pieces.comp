@@ -80,11 +80,28 @@ bool isClipped(uvec3 point) {
     return any(lessThan(point, cells.clipLo.xyz)) || any(greaterThan(point, cells.clipHi.xyz));
 }
 
+// As fillMissing has it: of the corners that are there and are the fewest edges from this one.
+double meanOfNearest(Corners c, uint corner) {
+    for (int away = 1; away <= 3; ++away) {
+        double sum = 0.0LF, least = 0.0LF, greatest = 0.0LF;
+        uint count = 0u;
+        for (uint k = 0u; k < 8u; ++k) {
+            if (bitCount(k ^ corner) != away || (c.octants >> k & 1u) == 0u) continue;
+            const double v = at(c.values, k);
+            sum += v / 4.0LF;
+            least = count == 0u ? v : min(least, v);
+            greatest = count == 0u ? v : max(greatest, v);
+            ++count;
+        }
+        if (count > 0u) return clamp(sum * (4.0LF / double(count)), least, greatest);
+    }
+    return 0.0LF;  // none is there, and nothing is seen
+}
+
 // Of the cell that is the place-th asked for.
 Corners cornersOf(uint place, uvec3 cell) {
     Corners c;
     c.octants = 0u;
-    double sum = 0.0LF;
     for (uint k = 0u; k < 8u; ++k) {
         const uvec3 p = pointAt(cell, k);
         const uint point = p.x + cells.points.x * (p.y + cells.points.y * p.z);
@@ -98,12 +115,10 @@ Corners cornersOf(uint place, uvec3 cell) {
 #endif
         if (!isThere) continue;
         c.values.of[k] = unpackDouble2x32(v);
-        sum += v / 8.0LF;
         c.octants |= 1u << k;
     }
-    const double mean = sum * (8.0LF / double(bitCount(c.octants)));
     for (uint k = 0u; k < 8u; ++k) {
-        if ((c.octants >> k & 1u) == 0u) c.values.of[k] = unpackDouble2x32(mean);
+        if ((c.octants >> k & 1u) == 0u) c.values.of[k] = unpackDouble2x32(meanOfNearest(c, k));
     }
     for (uint k = 0u; k < 8u; ++k) {
         if (isClipped(pointAt(cell, k))) c.octants &= ~(1u << k);
@@ -129,15 +144,18 @@ Eight cornersOf(Corners c, uint octant) {
     return e;
 }
 
-bool reaches(double least, double greatest, dvec2 range) {
-    return least < greatest ? least < range.y && greatest > range.x
-                            : least <= range.y && greatest >= range.x;
+bool touches(double least, double greatest, dvec2 range) { return least <= range.y && greatest >= range.x; }
+
+// Whether a passage through the range counts, however short it is.
+bool isThin(double extent, dvec2 range, dvec3 size) {
+    return (cells.points.w & 2u) != 0u && extent > 0.0LF &&
+           extent / (range.y - range.x) * 2.0LF * length(cells.unitLength / size) > 1.0LF;
 }
 
 float floatPlace(double at) { return float(clamp(at, -1e30LF, 1e30LF)); }
 
 // Of these corners, whose least and greatest they are, with that range.
-Piece pieceOf(Eight values, double least, double greatest, dvec2 range, dvec3 size) {
+Piece pieceOf(Eight values, double least, double greatest, dvec2 range, bool thin) {
     Piece p;
     p.kind = 0u;
     p.least = p.most = p.perRange = 0.0;
@@ -167,13 +185,11 @@ Piece pieceOf(Eight values, double least, double greatest, dvec2 range, dvec3 si
     }
     p.low = vec4(f[0], f[1], f[2], f[4]);
     p.high = vec4(f[3], f[5], f[6], f[7]);
-    const bool isThin = (cells.points.w & 2u) != 0u &&
-                        extent / (range.y - range.x) * 2.0LF * length(cells.unitLength / size) > 1.0LF;
-    const bool crossesLeast = isThin || least < range.x, crossesMost = isThin || greatest > range.y;
+    const bool crossesLeast = thin || least < range.x, crossesMost = thin || greatest > range.y;
     p.kind = uint(crossesLeast) << 4 | uint(crossesMost) << 5;
     double lo = 2.0LF * ((0.5LF * range.x - 0.5LF * reference) / extent);
     double hi = 2.0LF * ((0.5LF * range.y - 0.5LF * reference) / extent);
-    if (isThin) {
+    if (thin) {
         const double middle = (lo + hi) / 2.0LF, way = max(hi - middle, kThinnest / 2.0LF);
         lo = middle - way;
         hi = middle + way;
@@ -197,13 +213,18 @@ uint take(Corners c, uint number, uvec3 cell, bool writes, uint first) {
             least = min(least, at(e, k));
             greatest = max(greatest, at(e, k));
         }
+        const dvec3 size = dvec3(texelFetch(axisSides, int(cell.x)).y,
+                                 texelFetch(axisSides, int(n.x + cell.y)).y,
+                                 texelFetch(axisSides, int(n.x + n.y + cell.z)).y);
         for (uint k = among.x; k < among.x + among.y; ++k) {
-            if (!reaches(least, greatest, ranges[k])) continue;
+            if (!touches(least, greatest, ranges[k])) continue;
+            const bool thin = isThin(0.5LF * greatest - 0.5LF * least, ranges[k],
+                                     isWhole ? size : 0.5LF * size);
+            // One that only touches the range has no length in it.
+            const bool hasLength = least == greatest || (least < ranges[k].y && greatest > ranges[k].x);
+            if (!thin && !hasLength) continue;
             if (writes) {
-                const dvec3 size = dvec3(texelFetch(axisSides, int(cell.x)).y,
-                                         texelFetch(axisSides, int(n.x + cell.y)).y,
-                                         texelFetch(axisSides, int(n.x + n.y + cell.z)).y);
-                Piece p = pieceOf(e, least, greatest, ranges[k], isWhole ? size : 0.5LF * size);
+                Piece p = pieceOf(e, least, greatest, ranges[k], thin);
                 p.cell = number;
                 p.kind |= octant | part.w << 8;
                 pieces[first + count] = p;

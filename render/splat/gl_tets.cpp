@@ -21,10 +21,11 @@ constexpr double kSixAboutADiagonal = 6;
 bool takeTet(GlTet& t, const ValuedTet& tet, const CellOfLayer& of, const Scene& scene,
              double steep) {
     const auto [low, high] = std::minmax_element(tet.values.begin(), tet.values.end());
-    if (!cell::reaches(*low, *high, tet.lo, tet.hi) || isFlat(tet.at, turnOf(tet.at))) return false;
+    if (!cell::touches(*low, *high, tet.lo, tet.hi) || isFlat(tet.at, turnOf(tet.at))) return false;
     TetSplat<float> s;
     std::array<double, 4> f{};
-    tet::seeField(s, tet, *low, *high, tet::slopesOf(tet.at), scene.placed.unitLength(), f);
+    if (!tet::seeField(s, tet, *low, *high, tet::slopesOf(tet.at), scene.placed.unitLength(), f))
+        return false;
     for (std::size_t i = 0; i < 4; ++i)
         t.corners[i] = glm::vec4(glm::dvec4(i == 0 ? tet.at[0] : tet.at[i] - tet.at[0], f[i]));
     t.least = s.least;

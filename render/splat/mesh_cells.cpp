@@ -1,6 +1,7 @@
 #include "render/splat/mesh_cells.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -20,17 +21,25 @@ constexpr double kRounded = 1e-6;  // of the mesh's extent, more than its places
 
 unsigned fillMissing(std::array<double, 8>& corners) {
     if (std::ranges::none_of(corners, [](double v) { return std::isnan(v); })) return 255;
-    double sum = 0;
-    int valid = 0;
     unsigned there = 0;
-    for (unsigned c = 0; c < 8; ++c) {
-        if (std::isnan(corners[c])) continue;
-        sum += corners[c] / 8;
-        ++valid;
-        there |= 1u << c;
+    for (unsigned c = 0; c < 8; ++c)
+        if (!std::isnan(corners[c])) there |= 1u << c;
+    const std::array<double, 8> given = corners;
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    for (unsigned c = 0; c < 8 && there != 0; ++c) {
+        for (int away = 1; std::isnan(corners[c]); ++away) {
+            double sum = 0, least = kFar, greatest = -kFar;
+            int count = 0;
+            for (unsigned other = 0; other < 8; ++other) {
+                if (std::popcount(other ^ c) != away || (there >> other & 1) == 0) continue;
+                sum += given[other] / 4;  // of three at most
+                least = std::min(least, given[other]);
+                greatest = std::max(greatest, given[other]);
+                ++count;
+            }
+            if (count > 0) corners[c] = std::clamp(sum * (4.0 / count), least, greatest);
+        }
     }
-    for (double& v : corners)
-        if (std::isnan(v)) v = sum * (8.0 / valid);
     return there;
 }
 

@@ -16,7 +16,8 @@
 
 namespace render {
 
-// Corners that have no value get the mean of those that have; a bit for each of the latter.
+// Corners that have no value get the mean of those that have one and are the fewest edges away, so
+// that cells beside each other have like values on their common face; a bit for each that has one.
 unsigned fillMissing(std::array<double, 8>& corners);
 
 // What it is made of must outlive it.

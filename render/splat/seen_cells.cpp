@@ -149,7 +149,7 @@ struct SeenLanes {
         store(hn::IfThenElse(changes, steep, d(kSteepest)), rows.field[seen_cell::kSteep], from);
         const auto reaches = hn::And(hn::Lt(least, hi), hn::Gt(greatest, lo));
         const auto touches = hn::And(hn::Le(least, hi), hn::Ge(greatest, lo));
-        return yes(hn::Or(reaches, hn::And(hn::Eq(least, greatest), touches)));
+        return yes(hn::Or(reaches, hn::And(touches, hn::Or(isThin, hn::Eq(least, greatest)))));
     }
     // As cell::coefficients().
     HWY_INLINE void storeCoefficients(D* f, std::size_t from) const {

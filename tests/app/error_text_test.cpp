@@ -18,6 +18,8 @@ TEST(ErrorText, IsRoundedToWhatASampleTells) {
     EXPECT_EQ(depthErrorText(0.0004), "error below 0.1 %");
     EXPECT_EQ(depthErrorText(0.0041), "error about 0.4 %");
     EXPECT_EQ(depthErrorText(0.123), "error about 12 %");
+    EXPECT_EQ(depthErrorText(9.99), "error about 999 %");
+    EXPECT_EQ(depthErrorText(327.87), "error above 1000 %");
     EXPECT_EQ(depthErrorText(kInfinite), "");
 }
 

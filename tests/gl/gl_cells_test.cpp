@@ -46,6 +46,16 @@ TEST_F(GlCellsOf, LengthsAreTheProcessorsFromOutsideAndInside) {
     }
 }
 
+// Values that points have, so that cells touch the range.
+TEST_F(GlCellsOf, RangesAtTheValuesOfPointsAreTheProcessors) {
+    for (const char* range : {"4", "4:4.05", "3.95:4"}) {
+        CellWorld world(sampled(tests::cube(9), [](const glm::dvec3& p) { return p.x; }), {range});
+        world.scene.opacityPer = OpacityPer::Crossing;
+        SCOPED_TRACE(range);
+        for (const View& view : {kOutside, kInside}) expectTheProcessors(world.scene, view, 1.5e-4);
+    }
+}
+
 TEST_F(GlCellsOf, ColoursLightAndOrderAreTheProcessors) {
     CellWorld world(waves(), {"-2:-0.5", "0.2:0.25", "0.8:2"}, 0.7);
     world.scene.layers[1].style.color = ByValue{{}, 0.2, 0.25};

@@ -45,6 +45,19 @@ TEST_F(GlTetsOf, LengthsAreTheProcessorsFromOutsideAndInside) {
         }
 }
 
+// Values that points have, so that tetrahedra touch the range; each ray passes it once.
+TEST_F(GlTetsOf, RangesAtTheValuesOfPointsAreTheProcessors) {
+    const auto grid = tests::twisted();
+    const auto layers = [&](std::size_t i) { return double(grid->indices(i).x); };
+    for (const char* range : {"2", "2:2.05", "1.95:2"}) {
+        CellWorld world(tests::stepOf(grid, layers), {range});
+        world.scene.opacityPer = OpacityPer::Crossing;
+        SCOPED_TRACE(range);
+        EXPECT_GT(std::ranges::max(tests::drawn(world.scene, kOutside)), 0.9);
+        for (const View& view : {kOutside, kInside}) expectTheProcessors(world.scene, view, 3e-4);
+    }
+}
+
 TEST_F(GlTetsOf, ColoursLightAndOrderAreTheProcessors) {
     for (const auto& grid : grids()) {
         CellWorld world(tests::noise(grid), {"0:0.2", "0.4:0.45", "0.7:0.9"}, 0.7);

@@ -1,5 +1,6 @@
 # cmake --install into a folder of its own, and what then stands there:
-#   cmake -DBUILD= -DWORK= -DFILE= -DVERSION= -DTYPES= -P install.cmake
+#   cmake -DBUILD= -DWORK= -DFILE= -DVDB= -DVERSION= -DTYPES= -P install.cmake
+# VDB: a file of OpenVDB, where that is read.
 # TYPES: the endings of files that must have a MIME type which the desktop entry claims, with | between.
 include(${CMAKE_CURRENT_LIST_DIR}/functions.cmake)
 set(prefix ${WORK}/prefix)
@@ -15,6 +16,10 @@ if(MPI)
        lib/libisochron_step.so.0.1.0)
   list(SORT expected)
 endif()
+if(VDB)
+  list(APPEND expected lib/isochron/libisochron_vdb.so)
+  list(SORT expected)
+endif()
 if(NOT "${files}" STREQUAL "${expected}")
   fail("installed: ${files}")
 endif()
@@ -26,6 +31,17 @@ endif()
 run("[==[${prefix}/bin/isochron]==] info [==[${FILE}]==]")
 if(NOT code EQUAL 0)
   fail("the installed program does not open ${FILE}")
+endif()
+if(VDB)  # with the library beside it, and not with the one that was built
+  run("[==[${prefix}/bin/isochron]==] info [==[${VDB}]==]")
+  if(NOT code EQUAL 0)
+    fail("the installed program does not open ${VDB}")
+  endif()
+  file(RENAME ${prefix}/lib/isochron ${prefix}/lib/gone)
+  run("[==[${prefix}/bin/isochron]==] info [==[${VDB}]==]")
+  if(NOT code EQUAL 1 OR NOT err MATCHES "^[^\n]*: OpenVDB: expected [^\n]*libisochron_vdb.so[^\n]*\n$")
+    fail("the installed program does not say what it lacks")
+  endif()
 endif()
 
 file(READ ${prefix}/share/applications/isochron.desktop entry)

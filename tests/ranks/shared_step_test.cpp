@@ -315,12 +315,28 @@ TEST(InSitu, WhatCannotBeIsRefusedOnAllRanksAndTheFileStays) {
                     if (last) s.size[2] = 1;
                 }),
                 HasSubstr("of the grid's"));
+    for (std::uint64_t isochron_step::*apart : {&isochron_step::row, &isochron_step::slice})
+        EXPECT_THAT(refusal([&](isochron_step& s) {
+                        if (!last) return;
+                        s.slice = 0;
+                        s.*apart = ~0ull / 2;
+                    }),
+                    HasSubstr("rows and slices in memory"));
+    static const float other = -98;
     if (world().size() > 1) {
         EXPECT_THAT(refusal([&](isochron_step& s) {
                         if (last) s.type = ISOCHRON_INT32;
                     }),
                     HasSubstr("the same type, grid and missing value on all ranks"));
+        EXPECT_THAT(refusal([&](isochron_step& s) {
+                        if (last) s.missing = &other;
+                    }),
+                    HasSubstr("the same missing value on all ranks"));
     }
+    std::array<char, 100> said{};
+    EXPECT_NE(isochron_write_step(MPI_COMM_WORLD, path.c_str(), nullptr, said.data(), said.size()),
+              0);
+    EXPECT_THAT(said.data(), HasSubstr("expected a step"));
     const double uneven[Simulation::kSide] = {0, 2, 1};
     EXPECT_THAT(refusal([&](isochron_step& s) { s.axis[0].coordinates = uneven; }),
                 HasSubstr("axis x"));

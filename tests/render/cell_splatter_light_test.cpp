@@ -24,9 +24,9 @@ using timeseries::Grid;
 // that is so wide that its length says more has its length. Also of one value alone.
 TEST(CellSplatter, PerCrossingAThinRangeOfALinearFieldStaysVisible) {
     const auto grid = tests::cube(9);
-    // The last ones end in two cells each, at a face between them.
-    for (const std::string range :
-         {"3.3:6.3", "4.25:4.35", "4.2999:4.3001", "4.3", "4.3:max", "3.95:4.05", "3.99:4.03"}) {
+    // The last ones end in two cells each, or lie at a face between them.
+    for (const std::string range : {"3.3:6.3", "4.25:4.35", "4.2999:4.3001", "4.3", "4.3:max",
+                                    "3.95:4.05", "3.99:4.03", "4:4.1", "3.9999:4", "4"}) {
         CellWorld world(
             tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
             {range});
@@ -43,6 +43,29 @@ TEST(CellSplatter, PerCrossingAThinRangeOfALinearFieldStaysVisible) {
         const View oblique = tests::lookFrom({0.9, -3, 1.1}, {32, 32});
         EXPECT_LT(std::ranges::max(drawn(world.scene, oblique)), 1.1) << range;
     }
+}
+
+// What only the values of points are: a sheet and a rod of a mask that are one point thick. A pixel
+// has of a sheet what it sees on both sides; rays beside a rod have less.
+TEST(CellSplatter, PerCrossingWhatPointsAloneHaveIsSeen) {
+    const auto grid = tests::cube(9);
+    const auto maskOf = [&](auto isIn) {
+        return CellWorld(tests::stepOf(grid,
+                                       [&](std::size_t i) {
+                                           return isIn(glm::ivec3(grid->indices(i))) ? 1.0f : 0.0f;
+                                       }),
+                         {"1"});
+    };
+    const View view = tests::lookFrom({3, -0.4, 0.3}, {64, 64}, 0.05);
+    CellWorld sheet = maskOf([](const glm::ivec3& p) { return p.x == 4; });
+    sheet.scene.opacityPer = OpacityPer::Crossing;
+    for (const float w : drawn(sheet.scene, view)) ASSERT_NEAR(w, 1, 5e-3);
+    CellWorld rod = maskOf([](const glm::ivec3& p) { return p.x == 4 && p.y == 4; });
+    rod.scene.opacityPer = OpacityPer::Crossing;
+    EXPECT_GT(std::ranges::max(drawn(rod.scene, tests::lookFrom({3, -0.4, 0.3}, {64, 64}))), 0.02);
+    // They have no length.
+    sheet.scene.opacityPer = OpacityPer::Length;
+    EXPECT_EQ(std::ranges::max(drawn(sheet.scene, view)), 0);
 }
 
 // As a headset's views are scaled: how thin a range is, is asked of the world.

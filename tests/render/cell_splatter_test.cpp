@@ -162,6 +162,37 @@ TEST(CellSplatter, MissingAndClippedPointsTakeTheirCellsAway) {
         }
 }
 
+// Where the field does not change towards what is missing, a surface goes on straight to where it
+// ends, half a cell farther.
+TEST(CellSplatter, BesideMissingPointsTheFieldGoesOn) {
+    const auto grid = tests::cube(9);
+    CellWorld whole(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
+                    {"2.3:2.4"});
+    CellWorld half(tests::stepOf(grid,
+                                 [&](std::size_t i) {
+                                     const auto at = grid->indices(i);
+                                     return at.y < 4 ? kNan : double(at.x);
+                                 }),
+                   {"2.3:2.4"});
+    // From the side of the surface; what is there is as it is without what is missing.
+    const View view = tests::lookFrom({3, 0.2, 0.1}, {64, 64});
+    const std::vector<float> all = drawn(whole.scene, view), some = drawn(half.scene, view);
+    int there = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!(some[i] > 0.9f * all[i]) || all[i] == 0) continue;  // at the end, and beyond it
+        ++there;
+        ASSERT_NEAR(some[i], all[i], 1e-4 * all[i]) << i;
+    }
+    double sumAll = 0, sumSome = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        sumAll += all[i];
+        sumSome += some[i];
+    }
+    EXPECT_GT(there, 500);
+    // Cells 0 to 8 along y reach half a step beyond both ends: of 9 steps 5 are left.
+    EXPECT_NEAR(sumSome / sumAll, 5.0 / 9, 0.03);
+}
+
 // Whole numbers are rounded ones: 3 stands for 2.5 to 3.5.
 TEST(CellSplatter, RangesOfWholeNumbersReachHalfANumberFarther) {
     const auto grid = tests::cube(8);

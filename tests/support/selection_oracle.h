@@ -33,13 +33,18 @@ inline bool holdsReal(const timeseries::Range& range, Real x) {
 }
 
 // The bound as a value of type T sees it: integers see it as it is; floating types see the nearest
-// T, but a finite bound beyond T's largest finite value stays beyond it.
+// T, but a finite bound beyond T's largest finite value by half a step stays beyond it.
 template <typename T>
 Real seenBy(const timeseries::Bound& bound) {
     const Real x = real(bound.value);
     if constexpr (std::is_integral_v<T>) return x;
     if (std::isnan(x) || std::isinf(x)) return x;
-    if (std::fabs(x) > static_cast<Real>(std::numeric_limits<T>::max())) return x;
+    const T largest = std::numeric_limits<T>::max();
+    const Real most = static_cast<Real>(largest);
+    if (std::fabs(x) > most) {
+        const Real step = most - static_cast<Real>(std::nextafter(largest, T(0)));
+        return std::fabs(x) - most < step / 2 ? std::copysign(most, x) : x;
+    }
     return static_cast<Real>(static_cast<T>(x));
 }
 

@@ -157,6 +157,8 @@ TEST(FoamMesh, ProcessorsAreOneCase) {
         atPoints.resize(20, 5);
         EXPECT_EQ(valuesOf<double>(*reader, "Tp"), atPoints);
         EXPECT_THAT(reader->variables()[0].notes, testing::Contains(HasSubstr("2 processor")));
+        EXPECT_THAT(reader->variables()[0].notes,
+                    testing::Contains("0.2 is left out: 1 of 2 processor folders have it"));
     }
     // Reconstructed.
     put(folder / "0.1/T", scalars({7, 8, 9}));

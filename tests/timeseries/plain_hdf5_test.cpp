@@ -50,6 +50,37 @@ TEST(PlainHdf5, FullScaleIsAValueWhereTheFillIsAnother) {
     EXPECT_EQ(std::get<std::vector<std::uint16_t>>(reader->read(0, 0).values), values);
 }
 
+// Their values may change while they do not: nothing of them is kept that a file's time stands for.
+TEST(PlainHdf5, WhatHasItsValuesInOtherFilesHasNoSources) {
+    const auto other =
+        array<float>(H5T_NATIVE_FLOAT, {3, 4, 5}, std::nullopt, std::vector<float>(60, 1));
+    EXPECT_THAT(open(other)->sources(0, 0).files, testing::ElementsAre(other));
+    const auto raw = tests::testFolder() / "raw.bin";
+    tests::writeBytes(raw, std::string(240, '\0'));
+    const std::array<hsize_t, 3> size{3, 4, 5};
+    for (const std::string kind : {"link", "virtual", "storage"}) {
+        const auto path = tests::testFolder() / (kind + ".h5");
+        const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        const hid_t space = H5Screate_simple(3, size.data(), nullptr);
+        const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
+        if (kind == "virtual") H5Pset_virtual(made, space, other.c_str(), "v", space);
+        if (kind == "storage") H5Pset_external(made, raw.c_str(), 0, 240);
+        if (kind == "link") {
+            H5Lcreate_external(other.c_str(), "v", file, "v", H5P_DEFAULT, H5P_DEFAULT);
+        } else {
+            const hid_t within = H5Gcreate2(file, "g", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+            const hid_t data =
+                H5Dcreate2(within, "v", H5T_NATIVE_FLOAT, space, H5P_DEFAULT, made, H5P_DEFAULT);
+            H5Dclose(data);
+            H5Gclose(within);
+        }
+        H5Pclose(made);
+        H5Sclose(space);
+        H5Fclose(file);
+        EXPECT_THAT(open(path)->sources(0, 0).files, testing::IsEmpty()) << kind;
+    }
+}
+
 // As HDF5 locks what it writes.
 TEST(PlainHdf5, AFileThatIsWrittenIsToldAndOneThatIsReadCanBeWritten) {
     const auto path =

@@ -266,5 +266,18 @@ TEST(RangeSetConversion, FiniteBoundsBeyondFloatStayOutside) {
     EXPECT_TRUE(RangeSet({closed(1e299, 1e300)}).toIntervals<float>().empty());
 }
 
+// As NumPy prints it, a little above: (2 - 2^-23) 2^127 is 3.40282346638528859...e38.
+TEST(RangeSetConversion, TheLargestFloatInItsShortestDigitsIsIt) {
+    using F = std::numeric_limits<float>;
+    ASSERT_GT(3.4028235e38, double(F::max()));
+    EXPECT_EQ(RangeSet({closed(3.4028235e38, kInfinity)}).toIntervals<float>(),
+              (std::vector<Interval<float>>{{F::max(), F::infinity()}}));
+    EXPECT_EQ(RangeSet({closed(-kInfinity, -3.4028235e38)}).toIntervals<float>(),
+              (std::vector<Interval<float>>{{-F::infinity(), F::lowest()}}));
+    EXPECT_EQ(RangeSet({open(-3.4028235e38, 3.4028235e38)}).toIntervals<float>(),
+              (std::vector<Interval<float>>{
+                  {std::nextafter(F::lowest(), 0.0f), std::nextafter(F::max(), 0.0f)}}));
+}
+
 }  // namespace
 }  // namespace timeseries

@@ -252,10 +252,9 @@ TEST_F(SeriesFiles, WhatIsCountedAfterADotIsWhole) {
     EXPECT_THAT(ascendingNumbers(series.files), Optional(ElementsAre(1, 2, 4)));
 }
 
-TEST_F(SeriesFiles, VersionsDatesAndPowersAreNotDecimal) {
+TEST_F(SeriesFiles, VersionsAndDatesAreNotDecimal) {
     make({"v1.2_0003.vti", "v1.3_0003.vti", "v1.3_0004.vti", "x1.2_3.vti", "x2.0_3.vti",
-          "x2.0_4.vti", "w0.1.5.vti", "w0.2.0.vti", "e_1.0e-04.vti", "e_1.5e-05.vti",
-          "e_2.5e-05.vti"});
+          "x2.0_4.vti", "w0.1.5.vti", "w0.2.0.vti"});
     // The last number varies among the others, so that the one before may be a version's.
     const ExpandedSeries versions = expand("v1.2_0003.vti");
     EXPECT_THAT(names(versions), ElementsAre("v1.2_0003.vti", "v1.3_0003.vti"));
@@ -264,7 +263,45 @@ TEST_F(SeriesFiles, VersionsDatesAndPowersAreNotDecimal) {
     EXPECT_THAT(names(expand("x1.2_3.vti")), ElementsAre("x1.2_3.vti"));
     EXPECT_THAT(names(expand("v1.3_0003.vti")), ElementsAre("v1.3_0003.vti", "v1.3_0004.vti"));
     EXPECT_THAT(names(expand("w0.1.5.vti")), ElementsAre("w0.1.5.vti"));
-    EXPECT_THAT(ascendingNumbers(expand("e_1.5e-05.vti").files), Optional(ElementsAre(1, 2)));
+}
+
+// As Python and C write times below 1e-4, and large ones, beside others in full.
+TEST_F(SeriesFiles, PowersOfTenAreNumbers) {
+    make({"t_0.0001.nc", "t_9e-05.nc", "t_1.5e-05.nc", "t_2.50E-05.nc", "t_0.00105.nc",
+          "u1e-05.vti", "u2e-04.vti", "u1.5e+03.vti", "x_1e-05a.nc", "x_2e-05a.nc", "y_1e5.nc",
+          "y_1e6.nc", "z_1e-3.nc", "z_1e-2.nc", "z_1e+0.nc", "node1e5.nc", "node1e6.nc"});
+    const ExpandedSeries series = expand("t_9e-05.nc");
+    EXPECT_THAT(names(series), ElementsAre("t_1.5e-05.nc", "t_2.50E-05.nc", "t_9e-05.nc",
+                                           "t_0.0001.nc", "t_0.00105.nc"));
+    EXPECT_THAT(series.here, Optional(2u));
+    EXPECT_THAT(ascendingNumbers(series.files),
+                Optional(ElementsAre(1.5e-05, 2.5e-05, 9e-05, 0.0001, 0.00105)));
+    EXPECT_THAT(ascendingNumbers(expand("u2e-04.vti").files),
+                Optional(ElementsAre(1e-05, 2e-04, 1500)));
+    EXPECT_THAT(ascendingNumbers(expand("y_1e5.nc").files), Optional(ElementsAre(1e5, 1e6)));
+    EXPECT_THAT(ascendingNumbers(expand("z_1e-3.nc").files), Optional(ElementsAre(1e-3, 1e-2, 1)));
+    // A letter behind it, or before one without a sign: it may be anything.
+    EXPECT_THAT(ascendingNumbers(expand("x_1e-05a.nc").files), Optional(ElementsAre(1, 2)));
+    EXPECT_THAT(ascendingNumbers(expand("node1e5.nc").files), Optional(ElementsAre(5, 6)));
+}
+
+TEST_F(SeriesFiles, AMinusThatFollowsNoLetterAndNoDigitIsASign) {
+    make({"t_-3.nc", "t_-12.nc", "t_0.nc", "t_7.nc", "day=-1.5.nc", "day=-1.25.nc", "day=0.5.nc",
+          "run-3.nc", "run-4.nc", "s_-1e-05.nc", "s_-2.5e-05.nc", "d_2000-01-04.nc",
+          "d_2000-01-05.nc"});
+    const ExpandedSeries series = expand("t_0.nc");
+    EXPECT_THAT(names(series), ElementsAre("t_-12.nc", "t_-3.nc", "t_0.nc", "t_7.nc"));
+    EXPECT_EQ(series.recognised, "4 files t_-12.nc to t_7.nc, numbers -12, -3, 0, 7: uneven");
+    EXPECT_THAT(ascendingNumbers(series.files), Optional(ElementsAre(-12, -3, 0, 7)));
+    const ExpandedSeries days = expand("day=0.5.nc");
+    EXPECT_EQ(days.recognised,
+              "3 files day=-1.5.nc to day=0.5.nc, numbers -1.5 to 0.5 every 0.25, with gaps");
+    EXPECT_THAT(ascendingNumbers(days.files), Optional(ElementsAre(-1.5, -1.25, 0.5)));
+    EXPECT_THAT(ascendingNumbers(expand("s_-1e-05.nc").files),
+                Optional(ElementsAre(-2.5e-05, -1e-05)));
+    EXPECT_THAT(ascendingNumbers(expand("run-3.nc").files), Optional(ElementsAre(3, 4)));
+    EXPECT_THAT(ascendingNumbers(expand("d_2000-01-04.nc").files), Optional(ElementsAre(4, 5)));
+    EXPECT_THAT(names(expand("t_*.nc")), ElementsAre("t_-12.nc", "t_-3.nc", "t_0.nc", "t_7.nc"));
 }
 
 TEST_F(SeriesFiles, DecimalsOfOneRunAreTakenAndOthersTold) {

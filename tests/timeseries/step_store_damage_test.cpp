@@ -138,10 +138,11 @@ TEST_F(StepStores, ManyWritersAndReadersOfOneStepAllHaveIt) {
 
 TEST(WholeFile, LeavesNothingUnlessItIsFinished) {
     const fs::path folder = tests::freshFolder();
+    const auto isOurs = [](const fs::path& name) { return name == "a" || name == "b"; };
     {
         WholeFile file(folder / "a");
         file.write(5, std::as_bytes(std::span("abc", 3)));
-        removeUnfinished(folder);  // it is being written
+        removeUnfinished(folder, isOurs);  // it is being written
         EXPECT_FALSE(fs::exists(folder / "a"));
     }
     EXPECT_TRUE(fs::is_empty(folder));
@@ -150,8 +151,13 @@ TEST(WholeFile, LeavesNothingUnlessItIsFinished) {
     file.finish();
     EXPECT_EQ(tests::readBytes(folder / "a"), std::string("\0\0abc", 5));
     tests::writeBytes(folder / (std::string("b.1-1") + WholeFile::kSuffix), "left");
-    removeUnfinished(folder);
+    removeUnfinished(folder, isOurs);
     EXPECT_THAT(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+    // What else ends so is somebody's own.
+    for (const char* name : {"c.1-1", "b", "b.1", "b.1-", "b.x-1", "thesis", ""})
+        tests::writeBytes(folder / (std::string(name) + WholeFile::kSuffix), "kept");
+    removeUnfinished(folder, isOurs);
+    EXPECT_THAT(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 8);
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 namespace timeseries {
 namespace {
 
-std::string date(const char* units, const Number& value, Calendar calendar = Calendar::Standard) {
+std::string date(std::string_view units, const Number& value,
+                 Calendar calendar = Calendar::Standard) {
     const auto parsed = TimeUnits::parse(units, calendar);
     return parsed ? parsed->date(value) : "not understood";
 }
@@ -85,6 +86,19 @@ TEST(TimeUnits, ZonesShiftTheReference) {
     EXPECT_EQ(date("hours since 1992-10-08 12:00:00 UTC", 1.0), "1992-10-08 13:00:00");
     EXPECT_EQ(date("hours since 1992-10-08 12:00:00 +0130", 0.0), "1992-10-08 10:30:00");
     EXPECT_EQ(date("hours since 1992-10-08 12:00:00 +1", 0.0), "1992-10-08 11:00:00");
+}
+
+// https://unidata.github.io/cftime/api.html: num2date's units.
+TEST(TimeUnits, UnitsHaveTheNamesThatCftimeWrites) {
+    EXPECT_EQ(date("hrs since 2000-01-01", 30.0), "2000-01-02 06:00:00");
+    EXPECT_EQ(date("Hrs since 2000-01-01", 30.0), "2000-01-02 06:00:00");
+    EXPECT_EQ(date("mins since 2000-01-01", 90.0), "2000-01-01 01:30:00");
+    for (const char* unit : {"hr", "h", "hours"})
+        EXPECT_EQ(date(std::string(unit) + " since 2000-01-01", 2.0), "2000-01-01 02:00:00");
+    for (const char* unit : {"secs", "sec", "s"})
+        EXPECT_EQ(date(std::string(unit) + " since 2000-01-01", 2.0), "2000-01-01 00:00:02");
+    for (const char* unit : {"msecs", "millisecs"})
+        EXPECT_EQ(date(std::string(unit) + " since 2000-01-01", 2000.0), "2000-01-01 00:00:02");
 }
 
 TEST(TimeUnits, FormsOfTheReference) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <tuple>
 
 #include "tests/support/read_variables.h"
@@ -45,6 +46,52 @@ TEST(VtkCollection, TimesAreRealAndMembersAreReadOneByOne) {
     EXPECT_EQ(points[2].value, 1000);
     for (const std::size_t step : {2u, 0u, 1u})
         EXPECT_EQ(std::get<std::vector<std::int32_t>>(reader->read(0, step).values)[3], step);
+}
+
+// As vtkXMLCollectionReader has them: all data sets of one time, told apart by group and part.
+TEST(VtkCollection, PartsOfOneTimeAreOneStep) {
+    const auto image = [](const std::string& name, int value, int shift) {
+        return tests::write(
+            name, imageText({.attributes = fmt::format("Origin=\"{} 0 0\"", shift),
+                             .points = dataArray("Int32", "p", std::vector<int>(12, value))}));
+    };
+    const Path a = image("a.vti", 1, 0), b = image("b.vti", 2, 50), c = image("c.vti", 3, 0),
+               d = image("d.vti", 4, 50), e = image("e.vti", 5, 90);
+    const auto valuesOf = [](Reader& reader, std::size_t step) {
+        const Field field = reader.read(0, step);
+        std::map<int, int> counts;
+        for (const int value : std::get<std::vector<std::int32_t>>(field.values)) ++counts[value];
+        return counts;
+    };
+    using Counts = std::map<int, int>;
+    const auto reader =
+        open(collection(member("2", c, "group=\"\" part=\"0\"") + member("1", a, "part=\"0\"") +
+                        member("1", b, "part=\"1\"") + member("2", d, "part=\"1\"") +
+                        member("2", e, "group=\"x\" part=\"1\"")));
+    const auto& points = reader->variables()[0].time->points;
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_EQ(points[0].value, 1);
+    EXPECT_EQ(points[1].value, 2);
+    EXPECT_EQ(valuesOf(*reader, 0), (Counts{{1, 12}, {2, 12}}));
+    EXPECT_EQ(valuesOf(*reader, 1), (Counts{{3, 12}, {4, 12}, {5, 12}}));
+    EXPECT_THAT(reader->sources(0, 0).files, ElementsAre(a, b));
+    EXPECT_EQ(reader->read(0, 0).grid->count(), 24u);
+
+    const auto without = [](const Path& file, const std::string& part) {
+        return "<DataSet " + part + " file=\"" + file.filename().string() + "\"/>";
+    };
+    const auto timeless = open(collection(without(a, "part=\"0\"") + without(b, "part=\"1\"")));
+    ASSERT_EQ(timeless->variables()[0].time->points.size(), 1u);
+    EXPECT_EQ(valuesOf(*timeless, 0), (Counts{{1, 12}, {2, 12}}));
+    // No parts: steps without times.
+    const auto steps = open(collection(without(a, "") + without(b, "")));
+    EXPECT_EQ(steps->variables()[0].time->points.size(), 2u);
+    EXPECT_THAT(
+        open(collection(member("0", a, "part=\"0\"") + member("0", b, "part=\"1\"") +
+                        member("1", a, "part=\"0\"") + member("1", "none.vti", "part=\"1\"")))
+            ->variables()[0]
+            .notes,
+        testing::Contains("1 of 4 files are missing, the first none.vti"));
 }
 
 TEST(VtkCollection, AttributesAreReadHoweverTheyAreWritten) {
@@ -156,14 +203,14 @@ TEST(VtkCollection, WhatDiffersIsTold) {
     EXPECT_THAT(refusalOfRead(collection(member("0", good) + member("0", finer))),
                 HasSubstr("expected times that differ, found 0 twice"));
     EXPECT_THAT(refusalOfRead(
-                    collection(member("0", good, "part=\"0\"") + member("0", finer, "part=\"1\""))),
-                HasSubstr("expected one part a time step, found 2 parts"));
-    EXPECT_THAT(refusalOfRead(collection(member("0", good) + member("1", good, "part=\"0\"") +
-                                         member("1", finer, "part=\"1\""))),
-                HasSubstr("expected one part a time step, found 2 parts"));
-    EXPECT_THAT(refusalOfRead(collection("<DataSet part=\"0\" file=\"a.vti\"/>"
-                                         "<DataSet part=\"1\" file=\"b.vti\"/>")),
-                HasSubstr("expected one part a time step, found 2 parts"));
+                    collection(member("0", good, "part=\"1\"") + member("0", finer, "part=\"1\""))),
+                HasSubstr("expected times that differ, found 0 twice"));
+    EXPECT_THAT(refusalOfRead(
+                    collection(member("0", good, "part=\"0\"") + member("0", good, "part=\"1\""))),
+                AllOf(HasSubstr("expected files that differ, found "), HasSubstr("a.vti again")));
+    EXPECT_THAT(refusalOfRead(
+                    collection(member("0", good, "part=\"0\"") + member("0", other, "part=\"1\""))),
+                HasSubstr("'p': expected int32 of 1 components, as in another block"));
     EXPECT_THAT(refusalOfRead(collection(member("nan", good))),
                 HasSubstr("expected a finite number"));
     EXPECT_THAT(refusalOfRead(collection("")), HasSubstr("expected a file, found none"));

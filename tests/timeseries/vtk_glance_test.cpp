@@ -264,6 +264,34 @@ TEST(VtkGlance, FilesInPartsHaveTheFirstTimeOfAPart) {
     EXPECT_THAT(refusalOfStep(*without, 2), IsEmpty());
 }
 
+// As VTK's own writers put it: of a list of blocks beside it, of parts within it.
+TEST(VtkGlance, FilesThatNameOthersMayHaveATimeThemselves) {
+    const Path folder = tests::freshFolder();
+    std::vector<std::string> lists, wholes;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::string points = dataArray("Int32", "p", std::vector<int>(12, int(i)));
+        tests::writeBytes(folder / fmt::format("{}.vti", i),
+                          tests::imageText({.points = points, .field = timeValue(-1)}));
+        tests::writeBytes(folder / fmt::format("{}.vtu", i), cubesText(timeValue(-1), points));
+        const std::string time = "<FieldData>" + timeValue(timeOfStep(i)) + "</FieldData>";
+        lists.push_back(fmt::format(
+            "<VTKFile type=\"vtkMultiBlockDataSet\"><vtkMultiBlockDataSet><DataSet index=\"0\" "
+            "file=\"{}.vti\"/></vtkMultiBlockDataSet>{}</VTKFile>",
+            i, time));
+        wholes.push_back(
+            fmt::format("<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid>{}<Piece "
+                        "Source=\"{}.vtu\"/></PUnstructuredGrid></VTKFile>",
+                        time, i));
+    }
+    for (const auto& [texts, extension] : {std::pair(lists, "vtm"), {wholes, "pvtu"}}) {
+        const auto paths = numberedFiles(folder, texts, extension);
+        EXPECT_THAT(timesOf(*openReader(paths)), ElementsAre(timeOfStep(0), timeOfStep(1)))
+            << extension;
+        EXPECT_THAT(timesOf(*openReader(std::span(paths).last(1))), ElementsAre(timeOfStep(1)))
+            << extension;
+    }
+}
+
 TEST(VtkGlance, AppendedValuesMayBeCutOff) {
     const Path folder = tests::freshFolder();
     std::vector<Path> paths;

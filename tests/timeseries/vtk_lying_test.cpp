@@ -45,6 +45,50 @@ TEST(DamagedVtk, SizesTheFileCannotHoldAreRefusedBeforeAnythingIsAllocated) {
                 HasSubstr("expected 8 points, found 9"));
 }
 
+// RFC 4648, 4.
+std::string base64Of(std::string_view bytes) {
+    constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::string_view some = bytes.substr(i, 3);
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < some.size() ? static_cast<unsigned char>(some[k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += k > some.size() ? '=' : kDigits[group >> (18 - 6 * k) & 63];
+    }
+    return text;
+}
+
+// VTK takes what stands between for values.
+TEST(DamagedVtk, Base64IsInOnePiece) {
+    std::array<std::uint32_t, 13> stored{48};  // their bytes, and values
+    for (std::uint32_t i = 1; i <= 12; ++i) stored[i] = 1000 * i;
+    const std::string whole =
+        base64Of(std::string_view(reinterpret_cast<const char*>(stored.data()), sizeof stored));
+    const auto image = [](const std::string& text) {
+        return tests::write("a.vti", imageText({.points = "<DataArray type=\"UInt32\" Name=\"p\" "
+                                                          "format=\"binary\">" +
+                                                          text + "</DataArray>\n"}));
+    };
+    for (const std::string around : {"", "\n    "}) {
+        const auto reader = open(image(around + whole + around));
+        const auto values = std::get<std::vector<std::uint32_t>>(reader->read(0, 0).values);
+        EXPECT_TRUE(std::equal(values.begin(), values.end(), stored.begin() + 1, stored.end()));
+    }
+    for (const std::string between :
+         {" ", "\n", "\r\n", "\t", "<!-- c -->", "=", "====", "-", "&#65;", "\n\n"})
+        for (const std::size_t at : {8u, 11u, 40u}) {
+            const bool isMarkup = between.find_first_of("<&") != between.npos;
+            std::string broken = whole;
+            broken.insert(at, between);
+            EXPECT_THAT(refusalOfRead(image(broken)),
+                        AllOf(HasSubstr("'p'"), HasSubstr(isMarkup ? "expected" : "in one piece")))
+                << between << at;
+        }
+}
+
 TEST(DamagedVtk, PlacesThatAreNotThereAreRefused) {
     using tests::structuredText;
     const std::string array = dataArray("Float64", "v", twelve());

@@ -185,7 +185,7 @@ TEST(VtkMultiBlock, WhatIsWrongIsNamed) {
     EXPECT_THAT(told(""), HasSubstr("expected a DataSet with a file that holds points"));
     EXPECT_THAT(told("<DataSet index=\"0\"/>"), HasSubstr("expected a DataSet with a file"));
     EXPECT_THAT(told(set("none.vtu")), HasSubstr("none.vtu: expected a file"));
-    EXPECT_THAT(told(set("a.vtu") + set("./a.vtu")), HasSubstr("found ./a.vtu again"));
+    EXPECT_THAT(told(set("a.vtu") + set("./a.vtu")), HasSubstr("found a.vtu again"));
     EXPECT_THAT(told(set("all.vtm")), HasSubstr("all.vtm"));
     EXPECT_THAT(told("<Block level=\"low\">" + set("image.vti") + "</Block>", "vtkOverlappingAMR"),
                 HasSubstr("Block level: expected a count, found \"low\""));

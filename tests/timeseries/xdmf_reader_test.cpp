@@ -16,8 +16,10 @@ namespace {
 
 using namespace tests;
 using namespace tests::xdmf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using tests::refusalOf;
 
 TEST(Xdmf, AnImageLiesWhereItsOriginAndStepsSay) {
@@ -272,6 +274,30 @@ TEST(Xdmf, WhatStandsElsewhereInTheFileIsFound) {
     EXPECT_EQ(valuesOf<float>(*reader, "q", 1), ramp<float>(24));
     EXPECT_THAT(reader->variables()[indexOf(*reader, "q")].time->points[1].value, 8);
     EXPECT_EQ(reader->variables()[indexOf(*reader, "p")].time->points.size(), 1u);
+}
+
+TEST(Xdmf, WhatStepsDoNotShowIsNoted) {
+    const auto with = [](const std::string& name, const std::string& before = "") {
+        return grid(before + kImage + attribute("p", "Node", item("24", numbersTo(24))) +
+                    (name.empty() ? "" : attribute(name, "Node", item("24", numbersTo(24)))));
+    };
+    const auto notesOf = [](const std::string& inside) {
+        return open(written(inTime(inside)))->variables()[0].notes;
+    };
+    const std::string range = "<Time TimeType=\"Range\">" + item("2", "5 9") + "</Time>",
+                      list = "<Time TimeType=\"List\">" + item("2", "5 9") + "</Time>",
+                      alone = "<Time Value=\"4\"/>";
+    EXPECT_THAT(notesOf(with("") + with("q") + with("q")),
+                Contains("1 of 3 grids have no Attribute 'q'"));
+    EXPECT_THAT(notesOf(with("q") + with("")), Contains("1 of 2 grids have no Attribute 'q'"));
+    EXPECT_THAT(notesOf(range + with("") + with("")),
+                Contains("steps are counted: a Time of TimeType range is not read"));
+    EXPECT_THAT(notesOf(list + with("") + with("") + with("")),
+                Contains("steps are counted: its Time has 2 for 3 grids"));
+    EXPECT_THAT(notesOf(with("", alone) + with("")),
+                Contains("steps are counted: 1 of 2 grids have no Time"));
+    EXPECT_THAT(notesOf(list + with("") + with("")), IsEmpty());
+    EXPECT_THAT(notesOf(with("") + with("")), IsEmpty());
 }
 
 // The same arrays may mean other cells.

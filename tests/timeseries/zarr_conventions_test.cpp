@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "tests/support/read_variables.h"
 #include "tests/support/zarr_store.h"
@@ -63,6 +66,65 @@ TEST(ZarrConventions, DimensionsOfXarrayHaveTheirCoordinates) {
         valuesOf<float>(*reader, "temp", 2),
         ElementsAre(2000, 2001, 2002, 2003, 2010, 2011, 2012, 2013, 2020, 2021, 2022, 2023, 2100,
                     2101, 2102, 2103, 2110, 2111, 2112, 2113, 2120, 2121, 2122, 2123));
+}
+
+// NumPy's own, as its arrays are stored without xarray. Seconds from 1970 to 2000-01-01:
+// 30 years of 365 days and 7 leap days.
+TEST(ZarrConventions, DatesOfNumPyAreDates) {
+    constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
+    constexpr std::int64_t k2000 = (30 * 365 + 7) * std::int64_t{86400};
+    struct Case {
+        const char *dtype, *dataType;
+        std::int64_t first, second;
+    };
+    for (const auto& [dtype, dataType, first, second] : std::vector<Case>{
+             {"<M8[ns]", R"({"name": "numpy.datetime64", "configuration": {"unit": "ns"}})",
+              k2000 * 1'000'000'000, (k2000 + 90) * 1'000'000'000},
+             {"<M8[s]",
+              R"({"name": "numpy.datetime64", "configuration": {"unit": "s", )"
+              R"("scale_factor": 1}})",
+              k2000, k2000 + 90},
+             {"<M8[30s]",
+              R"({"name": "numpy.datetime64", "configuration": {"unit": "s", )"
+              R"("scale_factor": 30}})",
+              k2000 / 30, k2000 / 30 + 3}}) {
+        const Layout times{.shape = {3}, .chunk = {3}};
+        const auto write = [&](const std::filesystem::path& folder, const Layout& layout) {
+            writeChunks<std::int64_t>(folder, layout, [&](const Lengths& at) {
+                return std::array{first, second, kNone}[at[0]];
+            });
+        };
+        const auto v2 = v2Group();
+        put(v2 / "v/.zarray", v2Array(kVolume, "<f4"));
+        put(v2 / "v/.zattrs", R"({"_ARRAY_DIMENSIONS": ["time", "z", "y", "x"]})");
+        writeChunks<float>(v2 / "v", kVolume, placeOf<float>);
+        put(v2 / "time/.zarray", v2Array(times, dtype));
+        put(v2 / "time/.zattrs", R"({"_ARRAY_DIMENSIONS": ["time"]})");
+        write(v2 / "time", times);
+
+        const auto v3 = v3Group();
+        Layout volume = kVolume, own = times;
+        volume.keyStart = own.keyStart = "c";
+        volume.separator = own.separator = "/";
+        put(v3 / "v/zarr.json",
+            v3Array(volume, "float32", {{"dimension_names", R"(["time", "z", "y", "x"])"}}));
+        writeChunks<float>(v3 / "v", volume, placeOf<float>);
+        put(v3 / "time/zarr.json", v3Array(own, "int64",
+                                           {{"data_type", dataType},
+                                            {"dimension_names", R"(["time"])"},
+                                            {"fill_value", "\"NaT\""}}));
+        write(v3 / "time", own);
+
+        for (const auto& store : {v2, v3}) {
+            const auto reader = open(store);
+            ASSERT_THAT(namesOf(*reader), ElementsAre("v"));
+            const auto& points = reader->variables()[0].time->points;
+            EXPECT_EQ(points[0].date, "2000-01-01 00:00:00") << dtype;
+            EXPECT_EQ(points[1].date, "2000-01-01 00:01:30") << dtype;
+            EXPECT_EQ(points[2].date, "") << dtype;
+            EXPECT_TRUE(std::isnan(points[2].value)) << dtype;
+        }
+    }
 }
 
 TEST(ZarrConventions, DimensionsOfAnyOrderAreTurned) {

@@ -30,7 +30,7 @@ template <typename T>
 T nearestFloat(const Number& number) {
     const double d = toDouble(number);
     if (std::isfinite(d) && std::abs(d) > static_cast<double>(std::numeric_limits<T>::max()))
-        return static_cast<T>(std::copysign(std::numeric_limits<T>::infinity(), d));
+        return timeseries::nearestFloat<T>(d);
     // Integers go to T directly: a detour by double would round twice.
     return std::visit([](auto x) { return static_cast<T>(x); }, number);
 }

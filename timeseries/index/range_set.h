@@ -39,9 +39,9 @@ constexpr Interval<double> kAllNumbers{-kInfinity, kInfinity};
 
 // The range in the type T; false when it holds no value of T.
 // Float types: each bound goes to the nearest T, then an open end steps one T inward; a finite
-// bound beyond T's largest finite value stays outside it (lo becomes +inf, hi the largest finite
-// value). Integer types: each bound goes inward to an integer, an open integral bound one further;
-// what lies beyond T's limits saturates. A NaN bound holds nothing.
+// bound beyond T's largest finite value by half a step stays outside it (lo becomes +inf, hi the
+// largest finite value). Integer types: each bound goes inward to an integer, an open integral
+// bound one further; what lies beyond T's limits saturates. A NaN bound holds nothing.
 template <typename T>
 bool toInterval(const Range& range, Interval<T>& out);
 

@@ -63,6 +63,15 @@ void expectAlike(const Ranks& ranks, const isochron_step& step) {
                 r));
     if (all[0][0] > ISOCHRON_DOUBLE)
         throw Refused(fmt::format("expected a type, found {}", all[0][0]));
+    if (!step.missing) return;
+    std::uint64_t missing = 0;
+    withType(static_cast<ValueType>(step.type),
+             [&]<typename T>(T) { std::memcpy(&missing, step.missing, sizeof(T)); });
+    const auto of = ranks.gather<std::uint64_t>({&missing, 1});
+    for (std::size_t r = 1; r < of.size(); ++r)
+        if (of[r] != of[0])
+            throw Refused(fmt::format(
+                "expected the same missing value on all ranks, found another on {}", r));
 }
 
 // The values of the box, without what lies between its rows and slices.
@@ -89,7 +98,13 @@ Field fieldOf(const isochron_step& step, const GridBox& box) {
     return field;
 }
 
-void writeStepOf(const Ranks& ranks, const char* path, const isochron_step& step) {
+constexpr std::uint64_t kMostApart = std::uint64_t{1} << 40;  // values; 8 TB of doubles
+
+void writeStepOf(const Ranks& ranks, const char* path, const isochron_step* given) {
+    ranks.agreed([&] {
+        if (!given) throw Refused("expected a step");
+    });
+    const isochron_step& step = *given;
     expectAlike(ranks, step);
     GridBox box;
     SharedStep shared;
@@ -109,11 +124,19 @@ void writeStepOf(const Ranks& ranks, const char* path, const isochron_step& step
         if (box.count() > 0 && ((step.row && step.row < box.size[0]) ||
                                 (step.slice && step.slice < (step.row ? step.row : box.size[0]))))
             throw Refused("expected rows and slices that are apart by no less than they hold");
+        if (box.count() > 0 && (step.row > kMostApart || step.slice > kMostApart))
+            throw Refused(
+                fmt::format("expected rows and slices in memory, found them {} and {} apart",
+                            step.row, step.slice));
         withType(static_cast<ValueType>(step.type),
                  [&]<typename T>(T) { field = fieldOf<T>(step, box); });
         if (!ranks.isFirst()) return;
         if (!path) throw Refused("expected the name of a file");
         shared.about = timeseries::textOf(aboutOf(step));
+        // What a run that was killed has left of this file.
+        const std::filesystem::path whole(path);
+        removeUnfinished(whole.parent_path().empty() ? "." : whole.parent_path(),
+                         [&](const auto& name) { return name == whole.filename(); });
         file.emplace(path);
     });
     writeShared(ranks, std::move(field), box, shared, file ? &*file : nullptr);
@@ -129,7 +152,7 @@ int isochron_write_step(MPI_Comm comm, const char* path, const isochron_step* st
                         size_t message_bytes) {
     std::string why;
     try {
-        timeseries::writeStepOf(timeseries::Ranks(comm), path, *step);
+        timeseries::writeStepOf(timeseries::Ranks(comm), path, step);
     } catch (const std::exception& error) {
         why = error.what();
     }

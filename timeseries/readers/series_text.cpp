@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <numeric>
 
 namespace timeseries {
@@ -22,9 +23,9 @@ struct Scaled {
     std::size_t decimals = 0;  // the power
 
     std::string text(std::int64_t value) const {
-        std::string digits = fmt::format("{:0{}}", value, decimals + 1);
+        std::string digits = fmt::format("{:0{}}", std::abs(value), decimals + 1);
         if (decimals > 0) digits.insert(digits.size() - decimals, ".");
-        return digits;
+        return (value < 0 ? "-" : "") + digits;
     }
 };
 

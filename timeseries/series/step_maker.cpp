@@ -43,6 +43,7 @@ struct Reopened {
 StepMaker::StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
                      StepStores stores, Holds holds, RangeSet asked)
     : reader_(std::move(reader)),
+      opened_(reader_->files()),
       variable_(variable),
       kept_(std::move(kept)),
       asked_(std::move(asked)),
@@ -53,6 +54,17 @@ SortedStep StepMaker::sorted(Field field) const {
     if (kept_ != RangeSet::everything()) return SortedStep::build(field, kept_);
     if (holds_ == Holds::Field) return SortedStep::buildWithField(std::move(field), asked_);
     return SortedStep::build(field, asked_);
+}
+
+Field StepMaker::read(std::size_t step) {
+    std::vector<std::filesystem::path> files = reader_->sources(variable_, step).files;
+    // A reader that does not know which they are may have few.
+    if (files.empty() && reader_->files().size() <= OpenedFiles::kFew)
+        files.assign(reader_->files().begin(), reader_->files().end());
+    opened_.expectSame(files);
+    Field field = reader_->read(variable_, step);
+    opened_.expectSame(files);
+    return field;
 }
 
 std::optional<StepOrigin> originOf(Reader& reader, std::size_t variable, std::size_t step) {
@@ -101,7 +113,7 @@ std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
         if (auto found = find(*origin, step)) return found;
     std::optional<OriginStamp> stamp;
     if (origin && stores_.write) stamp = stores_.write->stampOf(*origin);
-    auto made = std::make_shared<const SortedStep>(sorted(reader_->read(variable_, step)));
+    auto made = std::make_shared<const SortedStep>(sorted(read(step)));
     // Where a step has places of its own, the file would not have them.
     if (stamp && made->kept() == RangeSet::everything() &&
         made->size() >= std::max<std::uint64_t>(stores_.worthWriting, 1) &&

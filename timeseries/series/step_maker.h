@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "timeseries/readers/reader.h"
+#include "timeseries/series/opened_files.h"
 #include "timeseries/series/step_store.h"
 
 namespace timeseries {
@@ -59,8 +60,11 @@ class StepMaker {
     };
     std::shared_ptr<const SortedStep> find(const StepOrigin& origin, std::size_t step);
     SortedStep sorted(Field field) const;
+    // Of files that have not changed, before or meanwhile.
+    Field read(std::size_t step);
 
     const std::unique_ptr<Reader> reader_;
+    OpenedFiles opened_;
     const std::size_t variable_;
     const RangeSet kept_, asked_;
     const Holds holds_;

@@ -145,7 +145,7 @@ bool StepStore::write(const StepOrigin& origin, const OriginStamp& stamp, Clock:
     std::error_code failed;
     fs::create_directories(folder_, failed);
     if (failed) throw StepFileError(fmt::format("{}: {}", folder_.string(), failed.message()));
-    removeUnfinished(folder_);
+    removeUnfinished(folder_, isStored);
     WholeFile file(pathOf(origin));
     if (!into(file) || !isStill()) return false;
     file.finish();
@@ -184,7 +184,7 @@ std::optional<Clock::time_point> StepStore::changedAt(const fs::path& file) {
 }
 
 std::uint64_t StepStore::clear() {
-    removeUnfinished(folder_);
+    removeUnfinished(folder_, isStored);
     std::uint64_t bytes = 0;
     for (const Entry& entry : list()) {
         std::error_code failed;

@@ -9,6 +9,8 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace timeseries {
@@ -33,13 +35,31 @@ void writeAll(int file, const fs::path& path, std::uint64_t at, std::span<const 
     }
 }
 
+// "a" of "a.12-3.unfinished"; "" of what a WholeFile is not called.
+std::string finishedName(std::string_view name) {
+    const auto drop = [&](std::string_view end) {
+        if (!name.ends_with(end)) return false;
+        name.remove_suffix(end.size());
+        return true;
+    };
+    const auto dropDigits = [&] {
+        const std::size_t last = name.find_last_not_of("0123456789");
+        const bool any = last != name.npos && last + 1 < name.size();
+        if (any) name = name.substr(0, last + 1);
+        return any;
+    };
+    const bool is =
+        drop(WholeFile::kSuffix) && dropDigits() && drop("-") && dropDigits() && drop(".");
+    return std::string(is ? name : "");
+}
+
 }  // namespace
 
 // Between being made and being locked it looks like a leftover, and may be removed.
 WholeFile::WholeFile(fs::path path) : path_(std::move(path)) {
     for (;;) {
         unfinished_ = path_;
-        unfinished_ += fmt::format(".{}-{}{}", ::getpid(), written++, kSuffix);
+        unfinished_ += fmt::format(".{}-{}{}", ::getpid(), written++, kSuffix);  // finishedName()
         file_ = ::open(unfinished_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0644);
         if (file_ < 0 && errno == EEXIST) continue;  // of an earlier program of this number
         if (file_ < 0) fail(path_, errno);
@@ -91,10 +111,12 @@ void FilePart::flush() {
     if (::fsync(file_) != 0) fail(path_, errno);
 }
 
-void removeUnfinished(const fs::path& folder) {
+void removeUnfinished(const fs::path& folder,
+                      const std::function<bool(const fs::path& finished)>& isOurs) {
     std::error_code gone;
     for (const auto& entry : fs::directory_iterator(folder, gone)) {
-        if (!entry.path().string().ends_with(WholeFile::kSuffix)) continue;
+        const std::string finished = finishedName(entry.path().filename().string());
+        if (finished.empty() || !isOurs(finished)) continue;
         const int file = ::open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
         if (file < 0) continue;
         if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());

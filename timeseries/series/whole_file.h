@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "timeseries/index/byte_source.h"
 
@@ -48,7 +49,8 @@ class FilePart final : public ByteSink {
     int file_ = -1;
 };
 
-// Removes what programs that were interrupted have left in the folder.
-void removeUnfinished(const std::filesystem::path& folder);
+// Removes what programs that were interrupted have left in the folder of such files.
+void removeUnfinished(const std::filesystem::path& folder,
+                      const std::function<bool(const std::filesystem::path& finished)>& isOurs);
 
 }  // namespace timeseries

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -154,15 +155,20 @@ FoamTimes chooseParts(FoamCase& all) {
     FoamTimes own = timesIn(all.folder);
     const auto processors = processorsOf(all.folder);
     FoamTimes common = processors.empty() ? FoamTimes() : timesIn(processors[0]);
+    std::map<std::string, std::size_t> holders;  // of a time, how many processors have it
     for (const fs::path& processor : processors)
-        std::erase_if(common, [&](const FoamTime& time) {
-            std::error_code ignored;
-            return !fs::is_directory(processor / time.name, ignored);
-        });
+        for (const FoamTime& time : timesIn(processor)) ++holders[time.name];
+    std::erase_if(common,
+                  [&](const FoamTime& time) { return holders[time.name] < processors.size(); });
     if (common.size() > own.size()) {
         expectAllFromZero(processors);
         all.parts = processors;
         all.notes.push_back(fmt::format("read from its {} processor folders", processors.size()));
+        for (const auto& [time, count] : holders)
+            if (count < processors.size())
+                all.notes.push_back(
+                    fmt::format("{} is left out: {} of {} processor folders have it", time, count,
+                                processors.size()));
         return common;
     }
     const std::string collated = collatedIn(all.folder);

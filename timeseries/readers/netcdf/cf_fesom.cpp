@@ -88,7 +88,10 @@ class FesomFile final : public CfFile {
         for (NcVariable& variable : header_.variables) place(variable);
     }
 
-    std::vector<std::filesystem::path> sources() const override { return {path_, mesh_->path()}; }
+    std::vector<std::filesystem::path> sources() const override {
+        if (values_->sources().empty() || mesh_->sources().empty()) return {};
+        return {path_, mesh_->path()};
+    }
     std::string tooLarge(const NcVariable& variable, std::uint64_t points) const override {
         const MeshSource* const source = sourceOf(variable);
         return source ? mesh_->tooLarge(*source->variable, points)

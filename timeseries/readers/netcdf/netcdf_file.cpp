@@ -19,6 +19,7 @@
 #include "timeseries/readers/forked_call.h"
 #include "timeseries/readers/limits.h"
 #include "timeseries/readers/netcdf/classic_layout.h"
+#include "timeseries/readers/netcdf/hdf5_elsewhere.h"
 #include "timeseries/readers/netcdf/netcdf_types.h"
 #include "timeseries/readers/reader.h"
 
@@ -119,6 +120,7 @@ std::vector<bool> NetcdfFile::triedTogether(std::span<const std::filesystem::pat
 }
 
 void NetcdfFile::open() {
+    hasValuesElsewhere_ = hdf5HasValuesElsewhere(path_);
     // Absolute: the library takes what looks like a URL for one.
     check(nc_open(std::filesystem::absolute(path_).c_str(), NC_NOWRITE, &id_), "",
           "a whole netCDF file, whose links lead somewhere");
@@ -133,6 +135,10 @@ void NetcdfFile::open() {
 NetcdfFile::~NetcdfFile() {
     const LibraryLock lock;
     nc_close(id_);
+}
+
+std::vector<std::filesystem::path> NetcdfFile::sources() const {
+    return hasValuesElsewhere_ ? std::vector<std::filesystem::path>() : CfFile::sources();
 }
 
 std::string NetcdfFile::tooLarge(const NcVariable& variable, std::uint64_t points) const {

@@ -32,6 +32,7 @@ class NetcdfFile final : public CfFile {
     std::string tooLarge(ValueType type, std::uint64_t points) const {
         return tooLarge(type, points, 0);
     }
+    std::vector<std::filesystem::path> sources() const override;
     std::vector<Number> numbers(const NcVariable& variable) const override;
     void read(const NcVariable& variable, std::span<const std::size_t> start,
               std::span<const std::size_t> count, void* values) const override;
@@ -55,7 +56,8 @@ class NetcdfFile final : public CfFile {
 
     std::uint64_t fileBytes_ = 0;
     int id_ = -1;
-    std::vector<int> dimensionIds_;  // the library's, beside header_.dimensions
+    bool hasValuesElsewhere_ = false;  // in other files, which may change while it does not
+    std::vector<int> dimensionIds_;    // the library's, beside header_.dimensions
 };
 
 }  // namespace timeseries

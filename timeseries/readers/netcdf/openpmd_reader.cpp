@@ -51,7 +51,7 @@ class OpenPmdReader final : public Reader {
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
     StepSources sources(std::size_t variable, std::size_t step) override {
-        if (sources_[variable].steps[step].species) return {};
+        if (sources_[variable].steps[step].species || file_.sources().empty()) return {};
         return {paths_, step};
     }
 

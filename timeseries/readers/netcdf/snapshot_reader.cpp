@@ -46,6 +46,8 @@ class SnapshotReader final : public Reader {
                 .missing = {}};
     }
     StepSources sources(std::size_t, std::size_t step) override {
+        for (std::size_t i = 0; i < files_.paths().size(); ++i)
+            if (files_.at(i).sources().empty()) return {};
         return {{files_.paths().begin(), files_.paths().end()}, step};
     }
 

@@ -42,7 +42,7 @@ class VtkHdfImageReader final : public Reader {
     std::span<const Variable> variables() const override { return variables_; }
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
-    StepSources sources(std::size_t, std::size_t step) override { return {paths_, step}; }
+    StepSources sources(std::size_t, std::size_t step) override { return {file_.sources(), step}; }
 
  private:
     std::vector<double> said(const char* attribute, std::size_t count) const;

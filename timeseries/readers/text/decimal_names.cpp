@@ -93,6 +93,8 @@ Dotted readingOf(std::span<const std::filesystem::path> files, std::size_t at) {
     std::vector<Sides> all;
     for (const std::filesystem::path& file : files) {
         const Name name = cut(file);
+        if (isNegative(name.digits[at]) || std::ranges::find(name.powers, at) != name.powers.end())
+            return Dotted::Decimal;
         all.push_back({name.digits[at], name.digits[at + 1]});
     }
     std::ranges::sort(all, lessAsWholes);

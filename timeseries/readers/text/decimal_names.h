@@ -12,7 +12,7 @@
 namespace timeseries {
 
 // Where a name may hold decimal numbers: the places in Name::digits of what stands before the dots,
-// ascending. No part of "1.2.3", which is a version or a date, nor of "1.5e-3".
+// ascending. No part of "1.2.3", which is a version or a date, nor of "1.5e3".
 std::vector<std::size_t> decimalPlaces(const Name& name);
 
 // Each number that may be decimal made one without a dot.
@@ -25,7 +25,8 @@ enum class Dotted {
     Unclear  // as one they would be in another order than as two: "1.9" and "1.10"
 };
 
-// Decimal where both readings give the same order, and
+// Decimal where one of them has a sign or is a power of ten, else where both readings give the same
+// order, and
 // - the fractions are of one length, or none ends in a needless 0, as "1.50" does beside "0.5";
 // - what stands before the dot varies, or is 0. After any other number they are counted, as
 //   "Re100.0001" to "Re100.0050" are; where their lengths differ it is unclear;

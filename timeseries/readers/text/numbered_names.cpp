@@ -24,7 +24,8 @@ Numbered ascending(std::span<const Path> files, std::size_t at, bool decimal) {
     std::ranges::stable_sort(members, [](const Member& a, const Member& b) {
         if (numberLess(a.whole, b.whole)) return true;
         if (numberLess(b.whole, a.whole)) return false;
-        return a.fraction != b.fraction ? a.fraction < b.fraction : a.file < b.file;
+        if (a.fraction != b.fraction) return (a.fraction < b.fraction) != isNegative(a.whole);
+        return a.file < b.file;
     });
     Numbered series;
     for (Member& member : members) {

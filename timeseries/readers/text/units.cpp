@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <mutex>
+#include <utility>
 
 namespace timeseries {
 namespace {
@@ -23,6 +24,9 @@ struct Database {
     Database() {
         ut_set_error_message_handler(ut_ignore);
         system = ut_read_xml(nullptr);
+        // The names of times that files have of cftime and udunits has not.
+        for (const auto& [name, unit] : {std::pair{"hrs", "hour"}, {"mins", "minute"}})
+            if (const Unit known = parse(unit)) ut_map_name_to_unit(name, UT_ASCII, known.get());
     }
     ~Database() { ut_free_system(system); }
     Database(const Database&) = delete;

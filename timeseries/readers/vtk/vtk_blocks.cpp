@@ -4,9 +4,11 @@
 #include <lz4.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <fstream>
+#include <initializer_list>
 
 #include "timeseries/readers/limits.h"
 #include "timeseries/readers/vtk/vtk_header.h"
@@ -22,6 +24,9 @@ std::uint64_t unpackedPerByte(std::string_view compressor) {
     return compressor == "vtkLZMADataCompressor" ? 8000 : kMaxInflated;
 }
 
+constexpr std::string_view kBase64 =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
 // The bytes of one array where they lie, decoded where they are base64.
 class Source {
  public:
@@ -36,8 +41,8 @@ class Source {
             char c = 0;
             if (!file_.get(c)) return false;
             if (base64_ && (c == ' ' || c == '\n' || c == '\r' || c == '\t')) continue;
-            const std::size_t digit = base64_ ? kDigits.find(c) : static_cast<unsigned char>(c);
-            if (digit == kDigits.npos) return false;
+            const std::size_t digit = base64_ ? kBase64.find(c) : static_cast<unsigned char>(c);
+            if (digit == kBase64.npos) return false;
             held_ = (held_ << (base64_ ? 6 : 8) | static_cast<unsigned>(digit)) & 0xFFFF;
             bits_ += base64_ ? 6 : 8;
         }
@@ -68,9 +73,6 @@ class Source {
     }
 
  private:
-    static constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
     std::ifstream file_;
     bool base64_;
     unsigned held_ = 0;
@@ -84,6 +86,35 @@ std::uint64_t characters(bool base64, std::uint64_t bytes) {
     return base64 ? (bytes + 2) / 3 * 4 : bytes;
 }
 
+// Whether base64 of these numbers of bytes, one encoded behind the other, stands there without
+// anything between: VTK 9.1 takes blanks, comments and other padding for values.
+bool isUnbroken(const std::filesystem::path& path, std::uint64_t at, bool mayBeginWithBlanks,
+                std::initializer_list<std::uint64_t> all) {
+    constexpr std::uint64_t kPiece = 1 << 16;
+    std::ifstream file(path, std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(at));
+    if (mayBeginWithBlanks) file >> std::ws;
+    std::array<bool, 256> isDigit{};
+    for (const char c : kBase64) isDigit[static_cast<unsigned char>(c)] = true;
+    std::string piece;
+    const auto read = [&](std::uint64_t count) {
+        piece.resize(count);
+        return static_cast<bool>(file.read(piece.data(), static_cast<std::streamsize>(count)));
+    };
+    for (const std::uint64_t bytes : all) {
+        const std::uint64_t padding = (3 - bytes % 3) % 3;
+        for (std::uint64_t left = characters(true, bytes) - padding; left > 0;) {
+            if (!read(std::min(left, kPiece))) return false;
+            if (!std::ranges::all_of(
+                    piece, [&](char c) { return isDigit[static_cast<unsigned char>(c)]; }))
+                return false;
+            left -= piece.size();
+        }
+        if (!read(padding) || piece.find_first_not_of('=') != piece.npos) return false;
+    }
+    return true;
+}
+
 struct Check {
     const std::filesystem::path& path;
     const VtkEncoding& encoding;
@@ -91,8 +122,15 @@ struct Check {
     bool base64;
     std::uint64_t available;  // characters from the array's first on
     std::uint64_t bytes;      // of the values, unpacked
+    std::uint64_t at;         // of the file, the array's first
+    bool isAppended = false;
 
     [[noreturn]] void fail(const std::string& what) const { failVtk(path, place, what); }
+
+    void expectUnbroken(std::initializer_list<std::uint64_t> all) const {
+        if (base64 && !isUnbroken(path, at, !isAppended, all))
+            fail("expected base64 in one piece, without blanks or anything else within");
+    }
 
     std::uint64_t plainBytes(Source& source) const {
         std::uint64_t declared = 0;
@@ -119,6 +157,7 @@ struct Check {
             fail(fmt::format("expected {} bytes of values, found {}", bytes, declared));
         if (bytes > available || characters(base64, encoding.headerBytes + bytes) > available)
             fail(fmt::format("expected {} bytes of values, but the file ends before", bytes));
+        expectUnbroken({encoding.headerBytes + bytes});
         return characters(base64, encoding.headerBytes + bytes);
     }
 
@@ -151,6 +190,7 @@ struct Check {
         const std::uint64_t taken =
             characters(base64, (3 + blocks) * encoding.headerBytes) + characters(base64, packed);
         if (taken > available) fail("expected packed values, but the file ends before");
+        expectUnbroken({(3 + blocks) * encoding.headerBytes, packed});
         return taken;
     }
 };
@@ -184,28 +224,27 @@ namespace {
 // Where an array's bytes lie; of text none.
 struct Stored {
     Check check;
-    std::uint64_t at = 0;
     bool isText = false;
 };
 
 Stored storedAt(const XmlFile& file, const VtkEncoding& encoding, const XmlElement& array,
                 std::string_view place, std::uint64_t bytes) {
     const std::string_view format = array.has("format") ? array.attribute("format") : "ascii";
-    Stored stored{{file.path, encoding, place, true, array.characters, bytes}};
+    Stored stored{{file.path, encoding, place, true, array.characters, bytes, array.textAt}};
     if (format == "ascii") {
         stored.isText = true;
         return stored;
     }
     Check& check = stored.check;
-    stored.at = array.textAt;
     if (format == "appended") {
         const std::string_view text = array.attribute("offset");
         const auto offset = vtkNumber<std::uint64_t>(text);
         if (!offset) check.fail(fmt::format("expected an offset, found \"{}\"", text));
         if (file.appendedAt == 0 || *offset >= file.bytes - file.appendedAt)
             check.fail("expected appended values, but the file ends before");
-        stored.at = file.appendedAt + *offset;
-        check.available = file.bytes - stored.at;
+        check.isAppended = true;
+        check.at = file.appendedAt + *offset;
+        check.available = file.bytes - check.at;
         check.base64 = file.appendedEncoding == "base64";
     } else if (format != "binary") {
         check.fail(
@@ -226,7 +265,7 @@ std::uint64_t checkVtkValues(const XmlFile& file, const VtkEncoding& encoding,
         return array.characters;
     }
     if (stored.check.bytes == 0) return 0;
-    Source source(file.path, stored.at, stored.check.base64);
+    Source source(file.path, stored.check.at, stored.check.base64);
     return encoding.compressor.empty() ? stored.check.plain(source)
                                        : stored.check.compressed(source);
 }
@@ -237,7 +276,7 @@ std::optional<std::uint64_t> rawVtkValuesAt(const XmlFile& file, const VtkEncodi
     const bool isNative = encoding.bigEndian == (std::endian::native == std::endian::big);
     if (stored.isText || stored.check.base64 || !encoding.compressor.empty() || !isNative)
         return std::nullopt;
-    return stored.at + encoding.headerBytes;
+    return stored.check.at + encoding.headerBytes;
 }
 
 std::uint64_t countVtkValues(const XmlFile& file, const VtkEncoding& encoding,
@@ -245,7 +284,7 @@ std::uint64_t countVtkValues(const XmlFile& file, const VtkEncoding& encoding,
                              std::size_t valueBytes) {
     const Stored stored = storedAt(file, encoding, array, place, 0);
     if (stored.isText) return array.words;
-    Source source(file.path, stored.at, stored.check.base64);
+    Source source(file.path, stored.check.at, stored.check.base64);
     const std::uint64_t bytes = encoding.compressor.empty() ? stored.check.plainBytes(source)
                                                             : stored.check.unpackedBytes(source);
     if (bytes % valueBytes != 0)
@@ -276,15 +315,15 @@ std::string unpacked(const std::string& packed, std::size_t bytes, std::string_v
 // Where they are one block.
 std::optional<std::string> packedValues(const Stored& stored) {
     const Check& check = stored.check;
-    Source source(check.path, stored.at, check.base64);
+    Source source(check.path, check.at, check.base64);
     check.compressed(source);
-    Source header(check.path, stored.at, check.base64);
+    Source header(check.path, check.at, check.base64);
     std::array<std::uint64_t, 4> numbers{};  // blocks, bytes of each and of the last, packed bytes
     for (std::uint64_t& number : numbers) header.number(check.encoding, number);
     if (numbers[0] != 1 || numbers[3] > kMostPackedBytes) return std::nullopt;
     // The sizes and the values are encoded apart.
     Source values(check.path,
-                  stored.at + characters(check.base64, numbers.size() * check.encoding.headerBytes),
+                  check.at + characters(check.base64, numbers.size() * check.encoding.headerBytes),
                   check.base64);
     std::string found = unpacked(values.bytes(numbers[3]), check.bytes, check.encoding.compressor);
     return found.empty() ? std::nullopt : std::optional(std::move(found));
@@ -298,7 +337,7 @@ std::optional<std::string> readVtkValues(const XmlFile& file, const VtkEncoding&
     const Stored stored = storedAt(file, encoding, array, place, bytes);
     if (stored.isText || encoding.compressor == "vtkLZMADataCompressor") return std::nullopt;
     if (!encoding.compressor.empty()) return packedValues(stored);
-    Source source(file.path, stored.at, stored.check.base64);
+    Source source(file.path, stored.check.at, stored.check.base64);
     stored.check.plain(source);
     std::string found = source.bytes(bytes);
     return found.size() == bytes ? std::optional(std::move(found)) : std::nullopt;

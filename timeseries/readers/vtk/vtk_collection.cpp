@@ -1,4 +1,4 @@
-// Collections of VTK files (.pvd): one file a step.
+// Collections of VTK files (.pvd): a file a step, or several that are parts of it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,17 +21,22 @@ bool before(const Listed& a, const Listed& b) {
     return a.member.time.value_or(0) < b.member.time.value_or(0);
 }
 
-// Several parts of one time are one step together, and several without a time may be.
-// REQUIRES: ascending.
-void checkParts(const XmlFile& file, std::span<const Listed> all) {
+// Parts of one time are one step. One part twice is left to be refused, but for files without a
+// time: these are a step each, unless they are parts. REQUIRES: ascending.
+std::vector<VtkMember> joined(std::vector<Listed> all) {
+    std::vector<VtkMember> members;
     for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
         std::set<std::pair<std::string, std::string>> parts;
         for (end = first; end < all.size() && !before(all[first], all[end]); ++end)
             parts.insert(all[end].part);
-        if (parts.size() > 1)
-            failVtk(file.path, "Collection",
-                    fmt::format("expected one part a time step, found {} parts", parts.size()));
+        const bool areParts = parts.size() == end - first;
+        for (std::size_t i = first; i < end; ++i)
+            if (areParts && i > first)
+                members.back().beside.push_back(std::move(all[i].member.path));
+            else
+                members.push_back(std::move(all[i].member));
     }
+    return members;
 }
 
 }  // namespace
@@ -70,10 +75,7 @@ std::vector<VtkMember> readVtkCollection(const XmlFile& file) {
              {std::string(set->attribute("group")), std::string(set->attribute("part"))}});
     }
     std::ranges::stable_sort(listed, before);
-    checkParts(file, listed);
-    std::vector<VtkMember> members;
-    for (Listed& each : listed) members.push_back(std::move(each.member));
-    return vtkMembersInOrder(file.path, "Collection", std::move(members));
+    return vtkMembersInOrder(file.path, "Collection", joined(std::move(listed)));
 }
 
 }  // namespace timeseries

@@ -32,7 +32,8 @@ void seeAll(const std::filesystem::path& path, Seen& seen) {
     seen = {contents.whole.time, std::move(contents.whole.arrays)};
 }
 
-// The arrays are those of the first part that holds points, the time is the first that one tells.
+// The arrays are those of the first part that holds points, the time is the file's own, or the
+// first that a part tells.
 void seeParts(const XmlFile& file, Seen& seen) {
     bool isFirst = true, byVtkAlone = false;
     forEachVtkPart(file, [&](const XmlFile& part) {
@@ -43,7 +44,8 @@ void seeParts(const XmlFile& file, Seen& seen) {
         seen.time = told.time;
         return !byVtkAlone && !seen.time;
     });
-    if (byVtkAlone) seeAll(file.path, seen);
+    if (byVtkAlone) return seeAll(file.path, seen);
+    if (const VtkTold own = vtkTimeOf(file); own.time) seen.time = own.time;
 }
 
 void seeXml(const XmlSoFar& read, Seen& seen) {

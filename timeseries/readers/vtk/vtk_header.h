@@ -110,10 +110,11 @@ struct VtkHeader {
     std::uint64_t count(VtkPlace place) const;
 };
 
-// One member of a .pvd collection.
+// A step of a list of files.
 struct VtkMember {
     std::filesystem::path path;
     std::optional<double> time;
+    std::vector<std::filesystem::path> beside = {};  // its other parts, each a file like the first
 };
 
 // The sentence "path: place: what".
@@ -128,7 +129,7 @@ constexpr std::uint64_t kMaxVtkComponents = 1024;
 VtkHeader readVtkLegacyHeader(const std::filesystem::path& path);
 VtkHeader readVtkXmlHeader(const XmlFile& file);
 bool isVtkCollection(const XmlFile& file);
-// In the order of their times. Throws FileError.
+// In the order of their times; parts of one time, or without any, are one member. Throws FileError.
 std::vector<VtkMember> readVtkCollection(const XmlFile& file);
 // The members of ParaView's JSON.
 std::vector<VtkMember> readVtkSeries(const std::filesystem::path& path);

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
+#include <string>
+#include <utility>
 
 #include "timeseries/grid/index_boxes.h"
 #include "timeseries/readers/ordinary_file.h"
@@ -157,6 +160,57 @@ void checkLevels(const VtkHeader& block) {
                 "expected image data along the axes of space, as a block of an adaptive mesh");
 }
 
+// The blocks that a file names, so far.
+class BlockList {
+ public:
+    // `by`: the file.
+    explicit BlockList(Path by) : by_(std::move(by)) {}
+    // None of a file that holds nothing. `place`: where it is named.
+    void add(const Path& path, const std::string& place, std::uint64_t level) {
+        std::error_code ignored;
+        if (!seen_.insert(std::filesystem::weakly_canonical(path, ignored)).second)
+            failVtk(by_, place,
+                    fmt::format("expected files that differ, found {} again",
+                                path.filename().string()));
+        if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
+        const XmlFile file = readXml(path);
+        if (isEmptyVtkFile(file)) return;
+        blocks.push_back(openVtkXml(file));
+        levels.push_back(level);
+        constexpr std::uint64_t kMostListed = 1 << 27;  // 5 GB
+        const VtkHeader& last = blocks.back();
+        if (!isUnstructured(last.kind)) listed_ += last.count(VtkPlace::Cells);
+        if (listed_ > kMostListed && blocks.size() > 1)
+            failVtk(by_, place,
+                    fmt::format("expected at most {} cells in blocks whose cells are not listed, "
+                                "found {}",
+                                kMostListed, listed_));
+    }
+
+    std::vector<VtkHeader> blocks;
+    std::vector<std::uint64_t> levels;
+
+ private:
+    Path by_;
+    std::set<Path> seen_;
+    std::uint64_t listed_ = 0;
+};
+
+// What finer blocks cover of coarser ones.
+void coverCoarse(std::span<const std::uint64_t> levels, VtkBlocks& found) {
+    for (const VtkHeader& block : found.blocks) checkLevels(block);
+    for (std::size_t i = 0; i < found.blocks.size(); ++i) {
+        std::vector<const VtkHeader*> finer;
+        for (std::size_t j = 0; j < found.blocks.size(); ++j)
+            if (levels[j] > levels[i]) finer.push_back(&found.blocks[j]);
+        auto& [points, cells] = found.covered[i];
+        cells = coveredCells(found.blocks[i], finer);
+        points = coveredPoints(found.blocks[i], cells);
+    }
+    found.levels = std::set(levels.begin(), levels.end()).size();
+    found.format += fmt::format(", {} levels", found.levels);
+}
+
 }  // namespace
 
 bool isVtkMultiBlock(std::string_view type) { return compositeOf(type) != nullptr; }
@@ -165,48 +219,24 @@ VtkBlocks readVtkBlocks(const XmlFile& file) {
     const Composite& composite = *compositeOf(rootOf(file).attribute("type"));
     std::vector<Named> all;
     addNamed(file, file.root, 0, all);
-    VtkBlocks found;
-    found.format = composite.format;
-    std::vector<std::uint64_t> levels;
-    std::set<Path> seen;
-    constexpr std::uint64_t kMostListed = 1 << 27;  // 5 GB
-    std::uint64_t listed = 0;
-    for (const auto& [element, level] : all) {
-        const Path path = file.path.parent_path() / element->attribute("file");
-        std::error_code ignored;
-        if (!seen.insert(std::filesystem::weakly_canonical(path, ignored)).second)
-            failVtk(file.path, placeOf(*element),
-                    fmt::format("expected files that differ, found {} again",
-                                element->attribute("file")));
-        if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
-        const XmlFile block = readXml(path);
-        if (isEmptyVtkFile(block)) continue;
-        found.blocks.push_back(openVtkXml(block));
-        levels.push_back(level);
-        const VtkHeader& last = found.blocks.back();
-        if (!isUnstructured(last.kind)) listed += last.count(VtkPlace::Cells);
-        if (listed > kMostListed && found.blocks.size() > 1)
-            failVtk(file.path, placeOf(*element),
-                    fmt::format("expected at most {} cells in blocks whose cells are not listed, "
-                                "found {}",
-                                kMostListed, listed));
-        if (composite.hasLevels) checkLevels(last);
-    }
+    BlockList list(file.path);
+    for (const auto& [element, level] : all)
+        list.add(file.path.parent_path() / element->attribute("file"), placeOf(*element), level);
+    VtkBlocks found{composite.format, 0, std::move(list.blocks), {}};
     if (found.blocks.empty())
         failVtk(file.path, file.root.name, "expected a DataSet with a file that holds points");
     found.covered.resize(found.blocks.size());
-    for (std::size_t i = 0; composite.hasLevels && i < found.blocks.size(); ++i) {
-        std::vector<const VtkHeader*> finer;
-        for (std::size_t j = 0; j < found.blocks.size(); ++j)
-            if (levels[j] > levels[i]) finer.push_back(&found.blocks[j]);
-        auto& [points, cells] = found.covered[i];
-        cells = coveredCells(found.blocks[i], finer);
-        points = coveredPoints(found.blocks[i], cells);
-    }
-    if (composite.hasLevels) {
-        found.levels = std::set(levels.begin(), levels.end()).size();
-        found.format += fmt::format(", {} levels", found.levels);
-    }
+    if (composite.hasLevels) coverCoarse(list.levels, found);
+    return found;
+}
+
+VtkBlocks readVtkParts(const VtkMember& step) {
+    BlockList list(step.path);
+    list.add(step.path, "", 0);
+    for (const Path& part : step.beside) list.add(part, "", 0);
+    if (list.blocks.empty()) failVtk(step.path, "", "expected points in it or in another part");
+    VtkBlocks found{"VTK parts", 0, std::move(list.blocks), {}};
+    found.covered.resize(found.blocks.size());
     return found;
 }
 

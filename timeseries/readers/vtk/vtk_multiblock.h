@@ -22,6 +22,8 @@ struct VtkBlocks {
 };
 // Throws FileError.
 VtkBlocks readVtkBlocks(const XmlFile& file);
+// Of blocks that a collection lists as the parts of one step. Throws FileError.
+VtkBlocks readVtkParts(const VtkMember& step);
 
 // The cells of a block of any kind, one by one, but for those that are covered: `unstructured` and
 // `pieces` of its header.

@@ -13,6 +13,7 @@
 #include "timeseries/readers/vtk/vtk_file.h"
 #include "timeseries/readers/vtk/vtk_joined_cells.h"
 #include "timeseries/readers/vtk/vtk_multiblock.h"
+#include "timeseries/readers/vtk/vtk_time.h"
 #include "timeseries/readers/vtk/vtk_xml_numbers.h"
 
 namespace timeseries {
@@ -207,11 +208,10 @@ void gatherArrays(VtkHeader& whole, std::span<const VtkHeader> blocks) {
             blocks, [&](const VtkHeader& block) { return arrayIn(block, array) != nullptr; });
 }
 
-VtkContents ofBlocks(const XmlFile& file) {
-    VtkBlocks found = readVtkBlocks(file);
+VtkContents ofBlocks(const Path& path, VtkBlocks found) {
     const std::size_t count = found.blocks.size();
     VtkHeader whole;
-    whole.path = file.path;
+    whole.path = path;
     if (count == 1) {  // a grid like any other
         const VtkHeader& only = found.blocks[0];
         whole.kind = only.kind;
@@ -301,9 +301,17 @@ VtkContents vtkContentsOf(const Path& path) {
 
 VtkContents vtkContentsOf(const XmlFile& file) {
     const std::string_view type = rootOf(file).attribute("type");
-    if (!vtkTypeOfParts(type).empty()) return joined(file);
-    if (isVtkMultiBlock(type)) return ofBlocks(file);
-    return {openVtkXml(file), {}, {}};
+    const bool areParts = !vtkTypeOfParts(type).empty();
+    if (!areParts && !isVtkMultiBlock(type)) return {openVtkXml(file), {}, {}};
+    VtkContents contents = areParts ? joined(file) : ofBlocks(file.path, readVtkBlocks(file));
+    // Before those of its parts.
+    if (const VtkTold told = vtkTimeOf(file); told.time) contents.whole.time = told.time;
+    return contents;
+}
+
+VtkContents vtkContentsOf(const VtkMember& member) {
+    if (member.beside.empty()) return vtkContentsOf(member.path);
+    return ofBlocks(member.path, readVtkParts(member));
 }
 
 void readVtkArray(const VtkContents& contents, const VtkArray& array, VtkPart part,

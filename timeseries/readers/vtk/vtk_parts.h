@@ -24,6 +24,7 @@ struct VtkContents {
 // unstructured one. Throws FileError.
 VtkContents vtkContentsOf(const std::filesystem::path& path);
 VtkContents vtkContentsOf(const XmlFile& file);
+VtkContents vtkContentsOf(const VtkMember& member);
 
 // "ImageData" of "PImageData": of what kind the files are that hold the parts of one grid; "" of
 // another type of file.

@@ -91,11 +91,18 @@ void VtkReader::addTime() {
     time_ = std::make_shared<const TimeAxis>(std::move(axis));
 
     std::vector<std::string> absent;
-    for (const VtkMember& member : members_)
-        if (!flawOfFile(member.path).empty()) absent.push_back(member.path.filename().string());
+    std::size_t files = 0;
+    const auto look = [&](const Path& path) {
+        ++files;
+        if (!flawOfFile(path).empty()) absent.push_back(path.filename().string());
+    };
+    for (const VtkMember& member : members_) {
+        look(member.path);
+        for (const Path& part : member.beside) look(part);
+    }
     if (!absent.empty())
         notes_.push_back(fmt::format("{} of {} files are missing, the first {}", absent.size(),
-                                     members_.size(), absent[0]));
+                                     files, absent[0]));
 }
 
 void VtkReader::add(VtkVariable of) {
@@ -117,7 +124,7 @@ void VtkReader::add(VtkVariable of) {
 
 void VtkReader::open(std::size_t step) {
     if (step == openStep_) return;
-    frame_ = frameOf(vtkContentsOf(members_[step].path));
+    frame_ = frameOf(vtkContentsOf(members_[step]));
     openStep_ = step;
 }
 
@@ -126,8 +133,12 @@ StepSources VtkReader::sources(std::size_t variable, std::size_t step) {
     const auto& own = frame_.grids[static_cast<std::size_t>(sources_[variable].array.place)];
     const auto& grid = variables_[variable].grid;
     if (!own || gridOfStep(grid, own->grid) != grid) return {};
-    StepSources sources{{members_[step].path}};
-    for (const VtkHeader& part : frame_.contents.parts) sources.files.push_back(part.path);
+    const VtkMember& member = members_[step];
+    StepSources sources{{member.path}};
+    if (!member.beside.empty())  // also what holds nothing now
+        sources.files.insert(sources.files.end(), member.beside.begin(), member.beside.end());
+    else
+        for (const VtkHeader& part : frame_.contents.parts) sources.files.push_back(part.path);
     return sources;
 }
 
@@ -173,7 +184,7 @@ std::unique_ptr<Reader> openOne(const Path& path) {
         if (!isVtkCollection(file)) return alone(vtkContentsOf(file));
         members = readVtkCollection(file);
     }
-    auto first = frameOf(vtkContentsOf(members[0].path));
+    auto first = frameOf(vtkContentsOf(members[0]));
     return std::make_unique<VtkReader>(path, std::move(members), std::move(first), true);
 }
 

@@ -49,24 +49,24 @@ std::optional<double> valueOf(const XmlFile& file, const XmlElement& array) {
 VtkTold vtkTimeOf(const XmlFile& file) {
     const XmlElement& root = rootOf(file);
     VtkTold told;
-    for (const XmlElement* grid : named(root, root.attribute("type"))) {
-        const auto groups = named(*grid, "FieldData");
-        if (groups.size() > 1) return {{}, true};
-        std::set<std::string> names;
-        for (std::size_t i = 0; !groups.empty() && i < groups[0]->children.size(); ++i) {
-            const XmlElement& array = groups[0]->children[i];
-            const std::string name = exactNameOf(array);
-            const auto isTime = vtkTimeName(name);
-            if (!isTime || array.attribute("type") == "String" ||
-                countOf(file, array, "NumberOfTuples", 0) *
-                        countOf(file, array, "NumberOfComponents", 1) !=
-                    1)
-                continue;
-            const auto value = names.insert(name).second ? valueOf(file, array) : std::nullopt;
-            if (!value) return {{}, true};
-            if (std::isfinite(*value) && (!told.time || *isTime == "time"))
-                told.time = VtkTime{*isTime, *value};
-        }
+    auto groups = named(root, "FieldData");  // where files are named
+    for (const XmlElement* grid : named(root, root.attribute("type")))
+        for (const XmlElement* group : named(*grid, "FieldData")) groups.push_back(group);
+    if (groups.size() > 1) return {{}, true};
+    std::set<std::string> names;
+    for (std::size_t i = 0; !groups.empty() && i < groups[0]->children.size(); ++i) {
+        const XmlElement& array = groups[0]->children[i];
+        const std::string name = exactNameOf(array);
+        const auto isTime = vtkTimeName(name);
+        if (!isTime || array.attribute("type") == "String" ||
+            countOf(file, array, "NumberOfTuples", 0) *
+                    countOf(file, array, "NumberOfComponents", 1) !=
+                1)
+            continue;
+        const auto value = names.insert(name).second ? valueOf(file, array) : std::nullopt;
+        if (!value) return {{}, true};
+        if (std::isfinite(*value) && (!told.time || *isTime == "time"))
+            told.time = VtkTime{*isTime, *value};
     }
     return told;
 }

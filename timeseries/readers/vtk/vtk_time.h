@@ -11,7 +11,8 @@ struct VtkTold {
     std::optional<VtkTime> time;  // as VtkFrame's
     bool byVtkAlone = false;      // the file has to be opened for its time
 };
-// Of the file's own field data: none of a file that names others. Throws FileError.
+// Of the file's own field data, also where it names others, which may have theirs. Throws
+// FileError.
 VtkTold vtkTimeOf(const XmlFile& file);
 
 }  // namespace timeseries

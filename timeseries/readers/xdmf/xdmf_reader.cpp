@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -62,6 +63,7 @@ class XdmfReader final : public Reader {
     // Of the step that is open.
     std::string source_;
     std::unique_ptr<XdmfGrid> grid_;
+    std::vector<std::string> notes_;  // of the series that is added
     std::vector<Variable> variables_;
     std::vector<AttributeOf> sources_;  // [variable]
     std::vector<DamagedVariable> damaged_;
@@ -86,8 +88,30 @@ XdmfGrid& XdmfReader::open(const XdmfStep& step) {
     return *grid_;
 }
 
+// What its variables do not show.
+std::vector<std::string> notesOf(const XdmfDocument& document, const XdmfSeries& series) {
+    std::vector<std::string> notes;
+    if (!series.note.empty()) notes.push_back(series.note);
+    std::map<std::string, std::size_t> grids;  // of an Attribute, how many have it
+    std::size_t all = 0;
+    for (const XdmfStep& step : series.steps)
+        for (const XdmfElement& grid : step.parts) {
+            ++all;
+            std::set<std::string> names;
+            for (const XdmfElement& attribute : document.children(grid, "Attribute"))
+                if (centreOf(attribute) != "grid") names.insert(attribute.attribute("Name"));
+            for (const std::string& name : names) ++grids[name];
+        }
+    for (const auto& [name, count] : grids)
+        if (count < all)
+            notes.push_back(
+                fmt::format("{} of {} grids have no Attribute '{}'", all - count, all, name));
+    return notes;
+}
+
 void XdmfReader::addSeries(std::size_t series) {
     const auto time = timeOf(series_[series]);
+    notes_ = notesOf(document_, series_[series]);
     const auto attributes = document_.children(series_[series].steps[0].parts[0], "Attribute");
     std::set<std::pair<std::string, std::string>> found;
     for (const XdmfElement& attribute : attributes) {
@@ -146,6 +170,7 @@ void XdmfReader::addAttribute(std::size_t series, const XdmfElement& attribute,
         variable.grid = grid.at(atPoints);
         variable.time = time;
         variable.notes = grid.notes();
+        variable.notes.insert(variable.notes.end(), notes_.begin(), notes_.end());
         if (const auto& mesh = variable.grid->mesh())
             for (std::string& note : notesOf(*mesh)) variable.notes.push_back(std::move(note));
         variables_.push_back(std::move(variable));

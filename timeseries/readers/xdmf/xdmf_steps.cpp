@@ -58,14 +58,18 @@ std::optional<double> timeOf(const XdmfDocument& document, const XdmfElement& gr
     return std::nullopt;
 }
 
-// What the collection itself says of its steps' times; as many as it names.
+// What the collection itself says of its steps' times: as many as it names, or none, and why.
 std::vector<double> timesOf(const XdmfDocument& document, XdmfItems& items,
-                            const XdmfElement& collection, std::size_t steps) {
+                            const XdmfElement& collection, std::size_t steps, std::string& why) {
     const XdmfElement time = document.child(collection, "Time");
     const XdmfElement item = time.exists() ? document.child(time, "DataItem") : XdmfElement();
     if (!item.exists()) return {};
     const std::string kind = lower(time.attribute("TimeType").empty() ? time.attribute("Type")
                                                                       : time.attribute("TimeType"));
+    if (kind != "list" && kind != "hyperslab") {
+        why = fmt::format("a Time of TimeType {} is not read", kind.empty() ? "none" : kind);
+        return {};
+    }
     std::vector<double> times;
     if (kind == "list") times = items.numbers(item);
     if (kind == "hyperslab") {
@@ -77,7 +81,9 @@ std::vector<double> timesOf(const XdmfDocument& document, XdmfItems& items,
     }
     if (std::ranges::any_of(times, [](double t) { return !std::isfinite(t); }))
         document.fail(time, "expected times that are finite");
-    return times.size() == steps ? times : std::vector<double>();
+    if (times.size() == steps) return times;
+    why = fmt::format("its Time has {} for {} grids", times.size(), steps);
+    return {};
 }
 
 XdmfSeries inTime(const XdmfDocument& document, XdmfItems& items, const XdmfElement& collection) {
@@ -96,8 +102,12 @@ XdmfSeries inTime(const XdmfDocument& document, XdmfItems& items, const XdmfElem
     }
     series.hasTimes = timed == grids.size();
     if (series.hasTimes) return series;
-    const auto times = timesOf(document, items, collection, grids.size());
+    std::string why;
+    const auto times = timesOf(document, items, collection, grids.size(), why);
     series.hasTimes = !times.empty();
+    if (times.empty() && why.empty() && timed > 0)
+        why = fmt::format("{} of {} grids have no Time", grids.size() - timed, grids.size());
+    if (!why.empty()) series.note = "steps are counted: " + why;
     for (std::size_t i = 0; i < times.size(); ++i) series.steps[i].time = times[i];
     return series;
 }

@@ -18,6 +18,7 @@ struct XdmfStep {
 struct XdmfSeries {
     bool hasTimes = false;
     std::vector<XdmfStep> steps;  // at least one
+    std::string note = {};        // why the file's own times are not taken
 };
 
 // Those that have an Attribute. Throws FileError.

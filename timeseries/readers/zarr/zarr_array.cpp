@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "timeseries/grid/with_type.h"
 
@@ -96,7 +98,8 @@ void takeZarrChunk(const ZarrJson* shape, const char* place, ZarrArray& array) {
 
 void takeZarrFill(const ZarrJson* fill, ZarrArray& array) {
     if (!fill || fill->is_null()) return;
-    const auto number = jsonNumber(*fill);
+    const auto number =
+        *fill == "NaT" ? Number(std::numeric_limits<std::int64_t>::min()) : jsonNumber(*fill);
     const bool isValue = number && withType(*array.type, [&](auto t) {
                              return storedFill<decltype(t)>(*number).has_value();
                          });
@@ -104,6 +107,33 @@ void takeZarrFill(const ZarrJson* fill, ZarrArray& array) {
         throw std::invalid_argument(fmt::format("fill_value: expected a value of {}, found {}",
                                                 typeName(*array.type), jsonBriefly(fill)));
     array.fill = number;
+}
+
+void takeZarrTimes(bool areDates, std::string_view unit, std::uint64_t each, ZarrArray& array) {
+    // Months and years of NumPy differ in length.
+    constexpr std::array<std::pair<std::string_view, const char*>, 8> kUnits{
+        {{"W", "weeks"},
+         {"D", "days"},
+         {"h", "hours"},
+         {"m", "minutes"},
+         {"s", "seconds"},
+         {"ms", "milliseconds"},
+         {"us", "microseconds"},
+         {"ns", "nanoseconds"}}};
+    const auto named =
+        std::ranges::find(kUnits, unit, &std::pair<std::string_view, const char*>::first);
+    if (named == kUnits.end() || each == 0)
+        throw std::invalid_argument(
+            fmt::format("times: expected them in W, D, h, m, s, ms, us or ns, found \"{}\"", unit));
+    array.type = ValueType::I64;
+    if (!array.attributes.is_object()) array.attributes = ZarrJson::object();
+    const std::string count = each == 1 ? "" : fmt::format("{} ", each);
+    const auto unlessSaid = [&](const char* name, const ZarrJson& value) {
+        if (!array.attributes.contains(name)) array.attributes[name] = value;
+    };
+    unlessSaid("units", count + named->second + (areDates ? " since 1970-01-01" : ""));
+    if (areDates) unlessSaid("calendar", "proleptic_gregorian");
+    unlessSaid("missing_value", std::numeric_limits<std::int64_t>::min());
 }
 
 void takeZarrDimensions(const ZarrJson* names, const char* place, ZarrArray& array) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "timeseries/grid/field.h"
@@ -61,6 +62,9 @@ ZarrArray zarrArrayOfV3(const ZarrJson& metadata);
 void takeZarrShape(const ZarrJson& metadata, ZarrArray& array);
 void takeZarrChunk(const ZarrJson* shape, const char* place, ZarrArray& array);
 void takeZarrFill(const ZarrJson* fill, ZarrArray& array);
+// NumPy's dates (datetime64) and durations (timedelta64) in its unit, so many of them each: 64-bit
+// integers, of which the least is none (NaT), with attributes as CF's times have them.
+void takeZarrTimes(bool areDates, std::string_view unit, std::uint64_t each, ZarrArray& array);
 // `names`: as many texts as the array has dimensions, or nulls.
 void takeZarrDimensions(const ZarrJson* names, const char* place, ZarrArray& array);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <stdexcept>
 
 #include "timeseries/readers/zarr/zarr_array.h"
@@ -22,6 +23,17 @@ constexpr std::array kV2Types{
     V2Type{"f8", ValueType::F64},
 };
 
+// Of dates and durations, "M8[25s]", a letter for the kind and the unit; whether it is such a code.
+bool takeV2Times(std::string_view code, ZarrArray& array) {
+    if (!(code.starts_with("M8[") || code.starts_with("m8[")) || !code.ends_with(']')) return false;
+    std::string_view unit = code.substr(3, code.size() - 4);
+    std::uint64_t each = 1;
+    const auto count = std::from_chars(unit.data(), unit.data() + unit.size(), each);
+    unit.remove_prefix(static_cast<std::size_t>(count.ptr - unit.data()));
+    takeZarrTimes(code[0] == 'M', unit, each, array);
+    return true;
+}
+
 // NumPy's codes: the byte order, a letter for the kind, the bytes.
 void takeV2Type(const ZarrJson& metadata, ZarrArray& array) {
     const ZarrJson* const json = jsonMember(&metadata, "dtype");
@@ -30,11 +42,13 @@ void takeV2Type(const ZarrJson& metadata, ZarrArray& array) {
         code.empty() ? kV2Types.end()
                      : std::ranges::find(kV2Types, std::string_view(code).substr(1), &V2Type::code);
     const char order = code.empty() ? '\0' : code[0];
-    if (found == kV2Types.end() || (order != '<' && order != '>' && order != '|'))
+    const bool areTimes =
+        (order == '<' || order == '>') && takeV2Times(std::string_view(code).substr(1), array);
+    if ((found == kV2Types.end() && !areTimes) || (order != '<' && order != '>' && order != '|'))
         throw std::invalid_argument(
             fmt::format("dtype: expected integers of 8 to 64 bits, float32 or float64, found {}",
                         jsonBriefly(json)));
-    array.type = found->type;
+    if (!areTimes) array.type = found->type;
     constexpr char kOwn = std::endian::native == std::endian::little ? '<' : '>';
     array.swapped = order != '|' && order != kOwn;
 }

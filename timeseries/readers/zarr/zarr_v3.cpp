@@ -26,7 +26,12 @@ const ZarrJson* settingOf(const ZarrJson* extension, const char* name) {
 
 void takeV3Type(const ZarrJson& metadata, ZarrArray& array) {
     const ZarrJson* const json = jsonMember(&metadata, "data_type");
-    const std::string name = jsonText(json);
+    const std::string name = jsonText(json), extension = jsonText(nameOfV3(json));
+    if (extension == "numpy.datetime64" || extension == "numpy.timedelta64") {
+        const ZarrJson* const each = settingOf(json, "scale_factor");
+        return takeZarrTimes(extension == "numpy.datetime64", jsonText(settingOf(json, "unit")),
+                             each ? jsonCount(*each).value_or(0) : 1, array);
+    }
     for (std::size_t i = 0; i < std::variant_size_v<Values>; ++i)
         if (typeName(static_cast<ValueType>(i)) == name) array.type = static_cast<ValueType>(i);
     if (!array.type)

@@ -1,0 +1,68 @@
+#include "timeseries/series/opened_files.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "timeseries/readers/reader.h"
+
+namespace timeseries {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Some of the first `bytes` of a file, but for where formats count what they hold; "" where it
+// cannot be read.
+std::string sampleOf(const fs::path& path, std::uint64_t bytes) {
+    constexpr std::uint64_t kPieces = 16, kPiece = 256, kCounts = 64;
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return "";
+    std::string sample;
+    for (std::uint64_t i = 0; i < kPieces && bytes > kCounts; ++i) {
+        const std::uint64_t at = kCounts + (bytes - kCounts) / kPieces * i;
+        std::string piece(std::min(kPiece, bytes - at), '\0');
+        const ssize_t got = ::pread(file, piece.data(), piece.size(), static_cast<off_t>(at));
+        sample += piece.substr(0, got > 0 ? static_cast<std::size_t>(got) : 0);
+    }
+    ::close(file);
+    return sample;
+}
+
+}  // namespace
+
+OpenedFiles::OpenedFiles(std::span<const fs::path> files) : mayGrow_(files.size() <= kFew) {
+    expectSame(files);
+}
+
+std::optional<OpenedFiles::Seen> OpenedFiles::look(const fs::path& file) {
+    struct stat status {};
+    if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    return Seen{status.st_dev, status.st_ino, static_cast<std::uint64_t>(status.st_size),
+                status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+void OpenedFiles::expectSame(std::span<const fs::path> files) {
+    for (const fs::path& file : files) {
+        const auto now = look(file);
+        if (!now) continue;
+        const auto [place, isNew] = files_.try_emplace(file);
+        First& first = place->second;
+        if (isNew) {
+            first = {*now, now->bytes, mayGrow_ ? sampleOf(file, now->bytes) : ""};
+            continue;
+        }
+        if (first.seen == *now) continue;
+        const bool hasGrown = now->device == first.seen.device &&
+                              now->number == first.seen.number && now->bytes > first.seen.bytes &&
+                              !first.sample.empty() && sampleOf(file, first.bytes) == first.sample;
+        if (!hasGrown)
+            throw FileError(fmt::format("{}: it has changed since it was opened: open it again",
+                                        file.string()));
+        first.seen = *now;
+    }
+}
+
+}  // namespace timeseries
