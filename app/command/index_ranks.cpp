@@ -79,7 +79,7 @@ class TogetherWork {
                                 dataset_->name, task.variable));
             origin = originOf(*dataset_->reader, dataset_->variableIndex, task.step);
         });
-        if (ranks_.sum(origin.has_value()) < ranks_.size()) return StepMaker::Kept::Not;
+        if (ranks_.sum(origin.has_value()) < ranks_.size()) return StepMaker::Kept::Unknown;
         std::optional<OriginStamp> stamp;
         bool before = false;
         ranks_.agreed([&] {
@@ -88,9 +88,9 @@ class TogetherWork {
             before = store_->find(*origin) != nullptr;
         });
         if (ranks_.sum(before) > 0) return StepMaker::Kept::Before;
-        if (ranks_.sum(stamp.has_value()) == 0) return StepMaker::Kept::Not;
+        if (ranks_.sum(stamp.has_value()) == 0) return StepMaker::Kept::Changed;
         const bool written = write(task, *origin, stamp, firstOpening());
-        return ranks_.sum(written) > 0 ? StepMaker::Kept::Written : StepMaker::Kept::Not;
+        return ranks_.sum(written) > 0 ? StepMaker::Kept::Written : StepMaker::Kept::Changed;
     }
 
  private:
@@ -195,15 +195,17 @@ IndexedSteps indexAll(const Ranks& ranks, const IndexOptions& options,
             if (ranks.isFirst()) sayTo(stderr, "isochron: {}\n", error.what());
         }
         if (!ranks.isFirst()) continue;
-        if (!kept) ++done.failed;
-        if (kept == StepMaker::Kept::Before) ++done.before;
-        if (kept == StepMaker::Kept::Written) ++done.written;
-        if (kept == StepMaker::Kept::Not) ++done.notKept;
+        ++(kept ? done.of(*kept) : done.failed);
     }
-    std::array<std::uint64_t, 5> sums{done.before, done.written, done.notKept, done.failed,
-                                      store->lost()};
+    std::array<std::uint64_t, StepMaker::kKept + 2> sums{};
+    std::ranges::copy(done.kept, sums.begin());
+    sums[StepMaker::kKept] = done.failed;
+    sums[StepMaker::kKept + 1] = store->lost();
     ranks.sum(sums);
-    return {sums[0], sums[1], sums[2], sums[3], sums[4]};
+    std::copy_n(sums.begin(), StepMaker::kKept, done.kept.begin());
+    done.failed = sums[StepMaker::kKept];
+    done.lost = sums[StepMaker::kKept + 1];
+    return done;
 }
 
 int indexOf(const Ranks& ranks, const IndexOptions& options) {

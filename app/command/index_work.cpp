@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <span>
 #include <thread>
+#include <utility>
 
 #include "app/files/dataset.h"
 #include "app/files/step_cache.h"
@@ -16,21 +20,10 @@ using timeseries::FileError;
 using timeseries::StepMaker;
 using timeseries::StepStore;
 
-// "" stands for the variable that is shown first.
-std::vector<IndexTask> indexTasksOf(const IndexOptions& options) {
-    std::vector<std::string> names = options.variables;
-    if (names.empty()) names.emplace_back();
-    std::vector<IndexTask> tasks;
-    for (const std::string& name : names) {
-        const Dataset dataset = openDataset(options.files, name);
-        for (const std::size_t step : stepsOf(dataset, options.steps))
-            tasks.push_back({dataset.variable.name, step});
-    }
-    return tasks;
-}
+namespace {
 
-std::shared_ptr<StepStore> indexStoreOf(const IndexOptions& options) {
-    const std::vector<fs::path> files = openSeries(options.files).series.files;
+// One that changed a moment ago may change again and have the same time.
+void waitForSettled(std::span<const fs::path> files) {
     const auto now = std::chrono::system_clock::now();
     auto until = now;
     for (const fs::path& file : files) {
@@ -38,6 +31,31 @@ std::shared_ptr<StepStore> indexStoreOf(const IndexOptions& options) {
         if (changed && *changed <= now) until = std::max(until, *changed + StepStore::kSettled);
     }
     std::this_thread::sleep_until(until + std::chrono::milliseconds(10));
+}
+
+}  // namespace
+
+// "" stands for the variable that is shown first.
+std::vector<IndexTask> indexTasksOf(const IndexOptions& options) {
+    std::vector<std::string> names = options.variables;
+    if (names.empty()) names.emplace_back();
+    std::vector<IndexTask> tasks;
+    for (const std::string& name : names) {
+        const OpenDataset dataset = openDataset(options.files, name);
+        const std::vector<std::size_t> steps = stepsOf(dataset, options.steps);
+        for (const std::size_t step : steps) tasks.push_back({dataset.variable.name, step});
+        if (steps.empty()) continue;
+        try {  // of headers that name other files; those of the last step may be the newest
+            waitForSettled(dataset.reader->sources(dataset.variableIndex, steps.back()).files);
+        } catch (const FileError&) {  // told where it is sorted
+        }
+    }
+    return tasks;
+}
+
+std::shared_ptr<StepStore> indexStoreOf(const IndexOptions& options) {
+    const std::vector<fs::path> files = openSeries(options.files).series.files;
+    waitForSettled(files);
     auto store = options.beside ? storeBeside(files) : stepCache();
     if (!store) throw FileError("there is no folder to keep sorted steps in: --cache names one");
     return store;
@@ -52,13 +70,11 @@ IndexWork::IndexWork(const IndexOptions& options, std::shared_ptr<StepStore> sto
 
 void IndexWork::finish(std::optional<StepMaker::Kept> kept) {
     const std::lock_guard lock(mutex_);
-    if (!kept) ++done_.failed;
-    if (kept == StepMaker::Kept::Before) ++done_.before;
-    if (kept == StepMaker::Kept::Written) ++done_.written;
-    if (kept == StepMaker::Kept::Not) ++done_.notKept;
+    ++(kept ? done_.of(*kept) : done_.failed);
     const auto spent = std::chrono::duration<double>(Clock::now() - begin_).count();
-    const std::size_t slow = done_.written + done_.notKept;  // the others take no time
     const std::size_t finished = done_.all();
+    // The others take no time.
+    const std::size_t slow = finished - done_.failed - done_.of(StepMaker::Kept::Before);
     if (slow == 0 || finished == tasks_.size()) return;
     const double left =
         spent / static_cast<double>(slow) * static_cast<double>(tasks_.size() - finished);
@@ -91,16 +107,17 @@ void IndexWork::work() {
 int tellIndexed(const IndexedSteps& done, const StepStore& store) {
     std::uint64_t bytes = 0;
     for (const StepStore::Entry& entry : store.list()) bytes += entry.bytes;
+    std::string others;
+    for (const auto& [how, what] :
+         {std::pair(StepMaker::Kept::Moves, "whose points move"),
+          {StepMaker::Kept::Empty, "without a value"},
+          {StepMaker::Kept::Changed, "whose files changed meanwhile, or are of the future"},
+          {StepMaker::Kept::Unknown, "of a format whose steps are sorted each time"}})
+        if (const std::size_t count = done.of(how); count > 0)
+            others += fmt::format("{} {} {}", others.empty() ? "; not kept:" : ",", count, what);
     say("{} step{}: {} written, {} there before{}; {} holds {}\n", done.all(),
-        done.all() == 1 ? "" : "s", done.written, done.before,
-        done.notKept == 0
-            ? ""
-            : fmt::format(
-                  ", {} that cannot be kept: their points move, their files changed or are of the "
-                  "future, all their values are missing, or they are of a format whose steps are "
-                  "sorted each time",
-                  done.notKept),
-        store.folder().string(), megabytesText(bytes));
+        done.all() == 1 ? "" : "s", done.of(StepMaker::Kept::Written),
+        done.of(StepMaker::Kept::Before), others, store.folder().string(), megabytesText(bytes));
     if (done.lost > 0)
         sayTo(stderr,
               "isochron: {} has no room for all of them: it takes {} (a tenth of its disk, 64 GiB "

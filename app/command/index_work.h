@@ -1,11 +1,13 @@
 // Steps to be sorted into a store, and what became of them.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +22,7 @@ struct IndexTask {
     std::string variable;
     std::size_t step;
 };
-// All that the options ask for. Throws FileError.
+// All that the options ask for; waits for their files as indexStoreOf(). Throws FileError.
 std::vector<IndexTask> indexTasksOf(const IndexOptions& options);
 
 // The store that they go to, once their files are settled: one that changed a moment ago may change
@@ -29,9 +31,14 @@ std::vector<IndexTask> indexTasksOf(const IndexOptions& options);
 std::shared_ptr<timeseries::StepStore> indexStoreOf(const IndexOptions& options);
 
 struct IndexedSteps {
-    std::size_t before = 0, written = 0, notKept = 0, failed = 0;
+    std::array<std::size_t, timeseries::StepMaker::kKept> kept{};  // by StepMaker::Kept
+    std::size_t failed = 0;
     std::size_t lost = 0;  // of those that were there or written
-    std::size_t all() const { return before + written + notKept + failed; }
+    std::size_t& of(timeseries::StepMaker::Kept how) { return kept[static_cast<std::size_t>(how)]; }
+    std::size_t of(timeseries::StepMaker::Kept how) const {
+        return kept[static_cast<std::size_t>(how)];
+    }
+    std::size_t all() const { return std::accumulate(kept.begin(), kept.end(), failed); }
 };
 
 // Shared by the threads that do it.

@@ -125,7 +125,8 @@ bool ColorEditor::drawMaps(PanelContext& context, LayerChoice& layer, float widt
         }
         at.y += 32 * s;
     }
-    const Rect row{at, at + glm::vec2(width, 28 * s)};
+    const float fit = 48 * s;
+    const Rect row{at, at + glm::vec2(width - fit - 6 * s, 28 * s)};
     const double least = choice.lo.value_or(0), most = choice.hi.value_or(0);
     const auto take = [&](const std::optional<double>& entered, std::optional<double>& end) {
         if (!entered) return;
@@ -138,6 +139,13 @@ bool ColorEditor::drawMaps(PanelContext& context, LayerChoice& layer, float widt
     const auto hi =
         valueField(context, hi_, "##hi", part(row, 1, 2, s), "the map's high end", most);
     take(hi, choice.hi);
+    // The layer's own ends, which may have changed since.
+    if (textButton(context.theme, "##fit",
+                   {{at.x + width - fit, row.min.y}, {at.x + width, row.max.y}}, "Fit")) {
+        choice.lo = choice.hi = std::nullopt;
+        lo_ = hi_ = {};
+        changed = true;
+    }
     if (changed) layer.color = choice;
     return changed;
 }

@@ -140,6 +140,17 @@ TEST_F(SeriesFiles, ACollectionStandsAloneAndForItsFolder) {
     EXPECT_THAT(failure("x*"), HasSubstr("x.pvd: expected it alone"));
 }
 
+// ParaView's JSON, which lists its files with their times.
+TEST_F(SeriesFiles, AListOfASeriesStandsForItsFolder) {
+    make({"case_0.vtm", "case_1.vtm", "case_2.vtm"});
+    tests::writeBytes(folder_ / "case_1.vtm.series", R"({"file-series-version": "1.0"})");
+    for (const char* name : {"case_0.vtm", "case_1.vtm", "case_2.vtm"})
+        tests::writeBytes(folder_ / name, "<VTKFile type=\"vtkMultiBlockDataSet\">");
+    EXPECT_THAT(names(expand("")), ElementsAre("case_1.vtm.series"));
+    EXPECT_THAT(names(expand("case_1.vtm.series")), ElementsAre("case_1.vtm.series"));
+    EXPECT_THAT(failure("case_*"), HasSubstr("case_1.vtm.series: expected it alone"));
+}
+
 TEST_F(SeriesFiles, ANumberMayStandWhereAnExtensionWould) {
     make({"plt.0010", "plt.0020", "plt.txt", "2000", "2001", "v.nc4", "v.nc3"});
     EXPECT_THAT(names(expand("plt.0020")), ElementsAre("plt.0010", "plt.0020"));

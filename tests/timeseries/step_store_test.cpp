@@ -116,11 +116,11 @@ TEST_F(StepStores, AStepIsOfItsFileWhateverSeriesItIsOpenedIn) {
 // What changed a moment before it was opened may change again within the same tick of the clock.
 TEST_F(StepStores, WhatHasJustChangedIsNotKept) {
     const auto careful = std::make_shared<StepStore>(folder / "steps", StoreKind::Cache);
-    EXPECT_EQ(maker(careful)->keep(0), StepMaker::Kept::Not);
+    EXPECT_EQ(maker(careful)->keep(0), StepMaker::Kept::Changed);
     EXPECT_EQ(files(), 0u);
     // A clock that was set back: the file is of the future.
     fs::last_write_time(file, fs::file_time_type::clock::now() + std::chrono::hours(1));
-    EXPECT_EQ(maker()->keep(0), StepMaker::Kept::Not);
+    EXPECT_EQ(maker()->keep(0), StepMaker::Kept::Changed);
 }
 
 TEST_F(StepStores, WhatChangesBetweenReadingAndWritingIsNotKept) {
@@ -159,7 +159,7 @@ TEST_F(StepStores, SmallStepsAndKeptRangesAreNotWritten) {
     EXPECT_FALSE(small.hasUnwritten());
     reader = openReader(std::span(&file, 1));
     StepMaker kept(std::move(reader), 0, RangeSet::parse("3:5"), {{store}, store, 1});
-    EXPECT_EQ(kept.keep(0), StepMaker::Kept::Not);
+    EXPECT_EQ(kept.keep(0), StepMaker::Kept::Unknown);
     (void)maker()->keep(0);
     EXPECT_FALSE(kept.make(0)->file());  // also where all of it is there
 }

@@ -125,6 +125,27 @@ TEST(VtkParts, GhostCellsAreMissing) {
     EXPECT_EQ(byPlace(folder / "parts.pvtu", "c"), byPlace(folder / "whole.vtu", "c"));
 }
 
+// As VTK takes them, whichever part stands first.
+TEST(VtkParts, ArraysAreThoseThatTheWholeDeclares) {
+    const auto folder = freshFolder();
+    std::string more = cubes(0, 1, "");
+    more.insert(more.find("<CellData>") + 10, dataArray("Float64", "more", std::vector{7.0}));
+    writeBytes(folder / "more.vtu", more);
+    writeBytes(folder / "less.vtu", cubes(1, 1, ""));
+    for (const auto& [first, second] : {std::pair("more", "less"), {"less", "more"}}) {
+        writeBytes(folder / "parts.pvtu",
+                   fmt::format("<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid>"
+                               "<PCellData><PDataArray type=\"Float64\" Name=\"c\"/></PCellData>"
+                               "<Piece Source=\"{}.vtu\"/><Piece Source=\"{}.vtu\"/>"
+                               "</PUnstructuredGrid></VTKFile>",
+                               first, second));
+        const auto reader = open(folder / "parts.pvtu");
+        ASSERT_EQ(reader->variables().size(), 1u) << first;
+        EXPECT_EQ(reader->variables()[0].name, "c");
+        EXPECT_EQ(reader->variables()[0].grid->count(), 2u);
+    }
+}
+
 TEST(VtkParts, WhatIsWrongIsNamed) {
     const auto folder = freshFolder();
     writeBytes(folder / "a.vtu", cubes(0, 2, ""));

@@ -40,7 +40,7 @@ TEST(StoredVtk, AStepThatLiesElsewhereInASeriesKeepsItsPlaces) {
     for (const fs::path& path : both) EXPECT_EQ(maker({path})->keep(0), StepMaker::Kept::Written);
     const auto series = maker(both);
     EXPECT_EQ(series->keep(0), StepMaker::Kept::Before);
-    EXPECT_EQ(series->keep(1), StepMaker::Kept::Not);
+    EXPECT_EQ(series->keep(1), StepMaker::Kept::Moves);
     const auto moved = series->make(1);
     EXPECT_FALSE(moved->file());
     EXPECT_EQ(moved->grid().position(7), glm::dvec3(2));

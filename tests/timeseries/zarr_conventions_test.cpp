@@ -77,7 +77,7 @@ TEST(ZarrConventions, DatesOfNumPyAreDates) {
         const char *dtype, *dataType;
         std::int64_t first, second;
     };
-    for (const auto& [dtype, dataType, first, second] : std::vector<Case>{
+    for (const Case& each : std::vector<Case>{
              {"<M8[ns]", R"({"name": "numpy.datetime64", "configuration": {"unit": "ns"}})",
               k2000 * 1'000'000'000, (k2000 + 90) * 1'000'000'000},
              {"<M8[s]",
@@ -91,14 +91,14 @@ TEST(ZarrConventions, DatesOfNumPyAreDates) {
         const Layout times{.shape = {3}, .chunk = {3}};
         const auto write = [&](const std::filesystem::path& folder, const Layout& layout) {
             writeChunks<std::int64_t>(folder, layout, [&](const Lengths& at) {
-                return std::array{first, second, kNone}[at[0]];
+                return std::array{each.first, each.second, kNone}[at[0]];
             });
         };
         const auto v2 = v2Group();
         put(v2 / "v/.zarray", v2Array(kVolume, "<f4"));
         put(v2 / "v/.zattrs", R"({"_ARRAY_DIMENSIONS": ["time", "z", "y", "x"]})");
         writeChunks<float>(v2 / "v", kVolume, placeOf<float>);
-        put(v2 / "time/.zarray", v2Array(times, dtype));
+        put(v2 / "time/.zarray", v2Array(times, each.dtype));
         put(v2 / "time/.zattrs", R"({"_ARRAY_DIMENSIONS": ["time"]})");
         write(v2 / "time", times);
 
@@ -110,7 +110,7 @@ TEST(ZarrConventions, DatesOfNumPyAreDates) {
             v3Array(volume, "float32", {{"dimension_names", R"(["time", "z", "y", "x"])"}}));
         writeChunks<float>(v3 / "v", volume, placeOf<float>);
         put(v3 / "time/zarr.json", v3Array(own, "int64",
-                                           {{"data_type", dataType},
+                                           {{"data_type", each.dataType},
                                             {"dimension_names", R"(["time"])"},
                                             {"fill_value", "\"NaT\""}}));
         write(v3 / "time", own);
@@ -119,10 +119,10 @@ TEST(ZarrConventions, DatesOfNumPyAreDates) {
             const auto reader = open(store);
             ASSERT_THAT(namesOf(*reader), ElementsAre("v"));
             const auto& points = reader->variables()[0].time->points;
-            EXPECT_EQ(points[0].date, "2000-01-01 00:00:00") << dtype;
-            EXPECT_EQ(points[1].date, "2000-01-01 00:01:30") << dtype;
-            EXPECT_EQ(points[2].date, "") << dtype;
-            EXPECT_TRUE(std::isnan(points[2].value)) << dtype;
+            EXPECT_EQ(points[0].date, "2000-01-01 00:00:00") << each.dtype;
+            EXPECT_EQ(points[1].date, "2000-01-01 00:01:30") << each.dtype;
+            EXPECT_EQ(points[2].date, "") << each.dtype;
+            EXPECT_TRUE(std::isnan(points[2].value)) << each.dtype;
         }
     }
 }

@@ -28,6 +28,11 @@ constexpr std::string_view kByName = "in the order of their names";
 // What the members of a series are: a plotfile is a folder.
 enum class Members { Files, Plotfiles };
 
+// Which lists the files of its series, with their times.
+bool isList(const Path& file) {
+    return file.extension() == ".pvd" || file.extension() == ".series";
+}
+
 // The ordinary files of a folder, or its plotfiles, hidden ones left out. None when there are too
 // many.
 std::optional<Paths> filesIn(const Path& folder, Members members = Members::Files) {
@@ -144,7 +149,7 @@ ExpandedSeries seriesOf(const Path& file, std::span<const Sibling> siblings) {
 
 ExpandedSeries member(const Path& named, Members members = Members::Files) {
     ExpandedSeries alone{{named}, {}, "", {}};
-    if (const Name name = cut(named); name.digits.empty() || name.extension == ".pvd") return alone;
+    if (const Name name = cut(named); name.digits.empty() || isList(named)) return alone;
     std::optional<Paths> listed;
     try {
         listed = filesIn(named.parent_path(), members);
@@ -179,11 +184,10 @@ ExpandedSeries member(const Path& named, Members members = Members::Files) {
 // Files that were named or found together.
 ExpandedSeries together(Paths files, std::string_view order) {
     files = firstPartsOf(std::move(files));
-    const auto isCollection = [](const Path& file) { return file.extension() == ".pvd"; };
-    const auto collection = std::ranges::find_if(files, isCollection);
-    if (collection != files.end() && !std::ranges::all_of(files, isCollection))
+    const auto list = std::ranges::find_if(files, isList);
+    if (list != files.end() && !std::ranges::all_of(files, isList))
         throw FileError(fmt::format("{}: expected it alone, for it lists the files of its series",
-                                    collection->string()));
+                                    list->string()));
     ExpandedSeries result;
     if (const auto series = numbered(files)) {
         describe(*series, result);
@@ -245,9 +249,8 @@ ExpandedSeries folder(const Path& folder) {
     for (auto& [extension, files] : byExtension) candidates.push_back(std::move(files));
     if (candidates.size() > 1) {  // beside a readme, beside the raw data of detached headers
         candidates = readableOf(folder, candidates);
-        // A collection lists the others, with their times.
         for (const Paths& files : candidates)
-            if (files.size() == 1 && files.front().extension() == ".pvd") {
+            if (files.size() == 1 && isList(files.front())) {
                 candidates = {Paths(files)};
                 break;
             }

@@ -125,11 +125,14 @@ std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
 StepMaker::Kept StepMaker::keep(std::size_t step) {
     const auto made = make(step);
     if (made->file()) return Kept::Before;
-    if (!hasUnwritten()) return Kept::Not;
+    if (!hasUnwritten())
+        return made->size() == 0                       ? Kept::Empty
+               : made->sharedGrid() != variable().grid ? Kept::Moves
+                                                       : Kept::Unknown;
     const Unwritten next = unwritten_.front();
     unwritten_.pop_front();
-    return stores_.write->write(next.origin, next.stamp, *made, reader_->openedAt) ? Kept::Written
-                                                                                   : Kept::Not;
+    const bool isWritten = stores_.write->write(next.origin, next.stamp, *made, reader_->openedAt);
+    return isWritten ? Kept::Written : Kept::Changed;
 }
 
 bool StepMaker::hasUnwritten() {

@@ -42,8 +42,11 @@ class StepMaker {
     // Throws FileError, std::length_error, std::bad_alloc.
     std::shared_ptr<const SortedStep> make(std::size_t step);
 
-    // Writes it at once, unless it is there. Throws as make(), and StepFileError.
-    enum class Kept { Before, Written, Not };
+    // Writes it at once, unless it is there, or cannot be kept: its points move, it has no value,
+    // its files have changed meanwhile or just before, or nobody knows which these are. Throws as
+    // make(), and StepFileError.
+    enum class Kept { Before, Written, Moves, Empty, Changed, Unknown };
+    static constexpr std::size_t kKept = 6;
     Kept keep(std::size_t step);
 
     // Steps that were sorted, are worth writing and are still in use.

@@ -36,5 +36,29 @@ TEST(SelectedLayer, StaysTheSameWhereTheSweptOneComesAndGoesBeforeIt) {
     EXPECT_EQ(desk.interface.choices().layer, 1u);
 }
 
+// Of whichever control opens a popup whose last one does: the swatch's.
+TEST(LayerColor, FitsTheMapToTheRange) {
+    bool hasFitted = false;
+    for (std::size_t control = 0, count = 1; control < count && !hasFitted; ++control) {
+        tests::PanelsDesk desk;
+        Explorer e = desk.exploration.explorer();
+        e.layers = {tests::layer("4:20")};
+        e.layers[0].color = MapChoice{{}, 100, 200};
+        desk.exploration.edit(e);
+        desk.frames(2);
+        count = focus().controls().size();
+        desk.click(focus().controls()[control].at.centre());
+        desk.frames(2);
+        if (focus().controls().empty() || focus().controls().size() >= count) continue;
+        desk.click(focus().controls().back().at.centre());
+        desk.frames(2);
+        if (desk.exploration.explorer().layers.empty()) continue;
+        const auto& color = desk.exploration.explorer().layers[0].color;
+        const auto* map = color ? std::get_if<MapChoice>(&*color) : nullptr;
+        hasFitted = map != nullptr && map->lo == 4.0 && map->hi == 20.0;
+    }
+    EXPECT_TRUE(hasFitted);
+}
+
 }  // namespace
 }  // namespace app::panels

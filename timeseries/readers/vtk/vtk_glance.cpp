@@ -45,6 +45,7 @@ void seeParts(const XmlFile& file, Seen& seen) {
         return !byVtkAlone && !seen.time;
     });
     if (byVtkAlone) return seeAll(file.path, seen);
+    keepDeclared(file, seen.arrays);
     if (const VtkTold own = vtkTimeOf(file); own.time) seen.time = own.time;
 }
 

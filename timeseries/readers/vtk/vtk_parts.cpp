@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "timeseries/readers/ordinary_file.h"
@@ -52,9 +53,10 @@ const VtkArray* arrayIn(const VtkHeader& part, const VtkArray& array) {
     return found == part.arrays.end() ? nullptr : &*found;
 }
 
-// The arrays that the first part has; all have them.
-void joinArrays(VtkHeader& whole, std::span<const VtkHeader> parts) {
+// The arrays that the first part has; all have them. `file` declares them, if there is one.
+void joinArrays(VtkHeader& whole, std::span<const VtkHeader> parts, const XmlFile* file) {
     whole.arrays = parts[0].arrays;
+    if (file != nullptr) keepDeclared(*file, whole.arrays);
     whole.passedOver = parts[0].passedOver;
     for (const VtkHeader& part : parts) {
         for (const VtkPlace place : {VtkPlace::Points, VtkPlace::Cells}) {
@@ -129,9 +131,9 @@ void joinStructured(VtkHeader& whole, std::span<const VtkHeader> parts) {
 }
 
 // What parts say of themselves, in a whole of which the path and, of images, what it says itself
-// are known.
-VtkContents joined(VtkHeader whole, std::vector<VtkHeader> parts) {
-    joinArrays(whole, parts);
+// are known; `file` is one that declares their arrays, or null.
+VtkContents joined(VtkHeader whole, std::vector<VtkHeader> parts, const XmlFile* file) {
+    joinArrays(whole, parts, file);
     if (isUnstructured(whole.kind))
         joinVtkCells(whole, parts);
     else
@@ -179,7 +181,7 @@ VtkContents joined(const XmlFile& file) {
     take("Origin", whole.origin);
     take("Spacing", whole.spacing);
     take("Direction", whole.direction);
-    return joined(std::move(whole), std::move(parts));
+    return joined(std::move(whole), std::move(parts), &file);
 }
 
 // All arrays that some block has; where others have one of that name that is different, none.
@@ -220,7 +222,7 @@ VtkContents ofBlocks(const Path& path, VtkBlocks found) {
         whole.spacing = only.spacing;
         whole.direction = only.direction;
         whole.format = only.format;
-        return joined(std::move(whole), std::move(found.blocks));
+        return joined(std::move(whole), std::move(found.blocks), nullptr);
     }
     whole.kind = VtkKind::XmlBlocks;
     whole.format = fmt::format("{}, {} blocks", found.format, count);
@@ -269,6 +271,19 @@ std::string_view vtkTypeOfParts(std::string_view type) {
          {"ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid", "PolyData"})
         if (type.starts_with('P') && type.substr(1) == each) return each;
     return "";
+}
+
+void keepDeclared(const XmlFile& file, std::vector<VtkArray>& arrays) {
+    std::set<std::pair<VtkPlace, std::string>> declared;
+    for (const auto& [name, place] :
+         {std::pair("PPointData", VtkPlace::Points), {"PCellData", VtkPlace::Cells}})
+        for (const XmlElement* data : named(gridOfParts(file), name))
+            for (const XmlElement& array : data->children)
+                declared.emplace(place, array.attribute("Name"));
+    if (declared.empty()) return;
+    std::erase_if(arrays, [&](const VtkArray& array) {
+        return !declared.contains({array.place, array.name});
+    });
 }
 
 void forEachVtkPart(const XmlFile& file, const std::function<bool(const XmlFile& part)>& use) {

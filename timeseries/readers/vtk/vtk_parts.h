@@ -29,6 +29,8 @@ VtkContents vtkContentsOf(const VtkMember& member);
 // "ImageData" of "PImageData": of what kind the files are that hold the parts of one grid; "" of
 // another type of file.
 std::string_view vtkTypeOfParts(std::string_view type);
+// Drops those that such a file does not declare, where it declares any: VTK knows no others.
+void keepDeclared(const XmlFile& file, std::vector<VtkArray>& arrays);
 // use() of each of those files, while it returns true. REQUIRES: the file is of such a type. Throws
 // FileError.
 void forEachVtkPart(const XmlFile& file, const std::function<bool(const XmlFile& part)>& use);
