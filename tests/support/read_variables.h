@@ -20,6 +20,12 @@ inline std::unique_ptr<timeseries::Reader> open(const std::filesystem::path& pat
     return timeseries::openReader(std::span(&path, 1));
 }
 
+inline std::vector<std::string> namesOf(const timeseries::Reader& reader) {
+    std::vector<std::string> names;
+    for (const timeseries::Variable& variable : reader.variables()) names.push_back(variable.name);
+    return names;
+}
+
 // What they are refused with; "" when they open.
 inline std::string refusalOf(const std::vector<std::filesystem::path>& paths) {
     try {

@@ -222,4 +222,12 @@ inline void putCoordinate(const std::filesystem::path& store, const std::string&
     writeChunks<double>(store / name, layout, [&](const Lengths& at) { return values[at[0]]; });
 }
 
+// A value whose digits tell where it lies, of lengths below ten.
+template <typename T>
+T digitsOf(const Lengths& at) {
+    std::size_t n = 0;
+    for (const std::size_t along : at) n = n * 10 + along;
+    return static_cast<T>(n);
+}
+
 }  // namespace tests::zarr

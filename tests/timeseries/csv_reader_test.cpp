@@ -21,12 +21,6 @@ std::filesystem::path table(const std::string& text) {
     return testFolder() / "table.csv";
 }
 
-std::vector<std::string> namesOf(const Reader& reader) {
-    std::vector<std::string> names;
-    for (const Variable& variable : reader.variables()) names.push_back(variable.name);
-    return names;
-}
-
 TEST(Csv, ColumnsAreCoordinatesAndVariables) {
     const auto reader =
         open(table("# made by hand\nid,X [m],y [ m ],z,T (K),name\n"

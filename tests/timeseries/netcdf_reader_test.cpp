@@ -22,6 +22,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using tests::asValues;
+using tests::namesOf;
 using tests::ncType;
 using tests::NetcdfBuilder;
 using tests::open;
@@ -276,12 +277,6 @@ std::filesystem::path threeVariables(const std::string& name, const std::string&
     file.write(good, std::vector<float>{5, 6, 7, 8});
     file.write(level, std::vector<float>(8, 9));
     return file.close();
-}
-
-std::vector<std::string> namesOf(const Reader& reader) {
-    std::vector<std::string> names;
-    for (const Variable& variable : reader.variables()) names.push_back(variable.name);
-    return names;
 }
 
 TEST(NetcdfReader, AMalformedAttributeCostsTheVariablesThatNeedIt) {

@@ -22,6 +22,7 @@ using tests::dataArray;
 using tests::Image;
 using tests::imageText;
 using tests::indexOf;
+using tests::namesOf;
 using tests::valuesOf;
 using Path = std::filesystem::path;
 
@@ -39,12 +40,6 @@ std::vector<T> upTo(std::size_t count) {
     std::vector<T> values(count);
     std::iota(values.begin(), values.end(), T{0});
     return values;
-}
-
-std::vector<std::string> namesOf(const Reader& reader) {
-    std::vector<std::string> names;
-    for (const Variable& v : reader.variables()) names.push_back(v.name);
-    return names;
 }
 
 TEST(VtkImage, PointsAndCellsAreVariablesOnTheirOwnGrids) {

@@ -1,4 +1,4 @@
-// What the conventions of xarray (CF) and of OME-NGFF say of Zarr arrays.
+// What the conventions of xarray (CF) say of Zarr arrays.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,19 +22,6 @@ using testing::UnorderedElementsAre;
 
 const Layout kVolume{.shape = {3, 2, 3, 4}, .chunk = {1, 2, 3, 4}};
 
-std::vector<std::string> namesOf(const Reader& reader) {
-    std::vector<std::string> names;
-    for (const Variable& variable : reader.variables()) names.push_back(variable.name);
-    return names;
-}
-
-template <typename T>
-T placeOf(const Lengths& at) {
-    std::size_t n = 0;
-    for (const std::size_t along : at) n = n * 10 + along;
-    return static_cast<T>(n);
-}
-
 // As xarray's to_zarr() writes a dataset.
 TEST(ZarrConventions, DimensionsOfXarrayHaveTheirCoordinates) {
     const auto store = v2Group();
@@ -47,7 +34,7 @@ TEST(ZarrConventions, DimensionsOfXarrayHaveTheirCoordinates) {
     put(store / "temp/.zattrs",
         R"({"_ARRAY_DIMENSIONS": ["time", "depth", "lat", "lon"], "units": "degC",)"
         R"( "long_name": "temperature"})");
-    writeChunks<float>(store / "temp", kVolume, placeOf<float>);
+    writeChunks<float>(store / "temp", kVolume, digitsOf<float>);
     const auto reader = open(store);
     ASSERT_THAT(namesOf(*reader), ElementsAre("temp"));
     const Variable& variable = reader->variables()[0];
@@ -97,7 +84,7 @@ TEST(ZarrConventions, DatesOfNumPyAreDates) {
         const auto v2 = v2Group();
         put(v2 / "v/.zarray", v2Array(kVolume, "<f4"));
         put(v2 / "v/.zattrs", R"({"_ARRAY_DIMENSIONS": ["time", "z", "y", "x"]})");
-        writeChunks<float>(v2 / "v", kVolume, placeOf<float>);
+        writeChunks<float>(v2 / "v", kVolume, digitsOf<float>);
         put(v2 / "time/.zarray", v2Array(times, each.dtype));
         put(v2 / "time/.zattrs", R"({"_ARRAY_DIMENSIONS": ["time"]})");
         write(v2 / "time", times);
@@ -108,7 +95,7 @@ TEST(ZarrConventions, DatesOfNumPyAreDates) {
         volume.separator = own.separator = "/";
         put(v3 / "v/zarr.json",
             v3Array(volume, "float32", {{"dimension_names", R"(["time", "z", "y", "x"])"}}));
-        writeChunks<float>(v3 / "v", volume, placeOf<float>);
+        writeChunks<float>(v3 / "v", volume, digitsOf<float>);
         put(v3 / "time/zarr.json", v3Array(own, "int64",
                                            {{"data_type", each.dataType},
                                             {"dimension_names", R"(["time"])"},
@@ -132,7 +119,7 @@ TEST(ZarrConventions, DimensionsOfAnyOrderAreTurned) {
     const Layout layout{.shape = {4, 3, 2}, .chunk = {3, 2, 2}, .keyStart = "c", .separator = "/"};
     put(store / "v/zarr.json",
         v3Array(layout, "int32", {{"dimension_names", R"(["lon", "lat", "lev"])"}}));
-    writeChunks<std::int32_t>(store / "v", layout, placeOf<std::int32_t>);
+    writeChunks<std::int32_t>(store / "v", layout, digitsOf<std::int32_t>);
     const auto reader = open(store);
     EXPECT_EQ(reader->variables()[0].grid->size(), (std::array<std::size_t, 3>{4, 3, 2}));
     EXPECT_THAT(valuesOf<std::int32_t>(*reader, "v"),
@@ -148,7 +135,7 @@ TEST(ZarrConventions, PackedNumbersAreUnpacked) {
         R"({"_ARRAY_DIMENSIONS": ["z", "y", "x"], "scale_factor": 0.5, "add_offset": 100, )"
         R"("long_name": "Infinity"})");
     writeChunks<std::int16_t>(store / "v", layout, [](const Lengths& at) {
-        const auto n = placeOf<std::int16_t>(at);
+        const auto n = digitsOf<std::int16_t>(at);
         return static_cast<std::int16_t>(n == 11 ? -1 : n);
     });
     const auto reader = open(store);
@@ -240,7 +227,7 @@ TEST(ZarrConventions, GroupsSeeTheCoordinatesAroundThem) {
                            const std::string& dimensions) {
         put(store / name / "zarr.json",
             v3Array(layout, "float32", {{"dimension_names", dimensions}}));
-        writeChunks<float>(store / name, layout, placeOf<float>);
+        writeChunks<float>(store / name, layout, digitsOf<float>);
     };
     Layout line{.shape = {4}, .chunk = {4}, .keyStart = "c", .separator = "/"};
     array("x", line, R"(["x"])");
@@ -268,7 +255,7 @@ TEST(ZarrConventions, StoresAreJoinedByTheirTimes) {
         put(store / "v/.zarray", v2Array(layout, "<i4"));
         put(store / "v/.zattrs", R"({"_ARRAY_DIMENSIONS": ["time", "z", "y", "x"]})");
         writeChunks<std::int32_t>(store / "v", layout, [&](const Lengths& at) {
-            return static_cast<std::int32_t>(100 * i) + placeOf<std::int32_t>(at);
+            return static_cast<std::int32_t>(100 * i) + digitsOf<std::int32_t>(at);
         });
     }
     const auto reader = openReader(stores);
@@ -289,7 +276,7 @@ TEST(ZarrConventions, DimensionsWithoutNamesAreTimeAndSpace) {
         const Layout layout{.shape = shape, .chunk = shape};
         const auto store = v2Group();
         put(store / "v/.zarray", v2Array(layout, "<i4"));
-        writeChunks<std::int32_t>(store / "v", layout, placeOf<std::int32_t>);
+        writeChunks<std::int32_t>(store / "v", layout, digitsOf<std::int32_t>);
         const auto reader = open(store);
         EXPECT_EQ(reader->variables()[0].grid->size(), size) << listed(shape);
         EXPECT_EQ(reader->variables()[0].time->points.size(), steps) << listed(shape);
@@ -306,127 +293,6 @@ TEST(ZarrConventions, DimensionsWithoutNamesAreTimeAndSpace) {
     put(store / "v/.zarray", v2Array(layout, "<i4"));
     EXPECT_THAT(refusalOf(store),
                 HasSubstr("the dimension dim_0 of 5 is none of x, y, z and time"));
-}
-
-constexpr const char* kAxes =
-    R"([{"name": "t", "type": "time", "unit": "second"}, {"name": "c", "type": "channel"},)"
-    R"( {"name": "z", "type": "space", "unit": "micrometer"},)"
-    R"( {"name": "y", "type": "space", "unit": "micrometer"},)"
-    R"( {"name": "x", "type": "space", "unit": "micrometer"}])";
-
-std::string dataset(const std::string& path, const std::string& scale,
-                    const std::string& translation) {
-    return fmt::format(R"({{"path": "{}", "coordinateTransformations": [{{"type": "scale", )"
-                       R"("scale": {}}}, {{"type": "translation", "translation": {}}}]}})",
-                       path, scale, translation);
-}
-
-void putLevel(const std::filesystem::path& folder, const Lengths& shape, bool isV3) {
-    const Layout layout{
-        .shape = shape, .chunk = shape, .keyStart = isV3 ? "c" : "", .separator = "/"};
-    put(folder / (isV3 ? "zarr.json" : ".zarray"),
-        isV3 ? v3Array(layout, "uint16")
-             : v2Array(layout, "<u2", {{"dimension_separator", "\"/\""}}));
-    writeChunks<std::uint16_t>(folder, layout, placeOf<std::uint16_t>);
-}
-
-// Version 0.5 says the same as 0.4 under another name.
-TEST(ZarrConventions, ImagesOfOmeAreResolutionsAndChannels) {
-    for (const bool isV3 : {false, true}) {
-        const std::string said = fmt::format(
-            R"("multiscales": [{{"axes": {}, "datasets": [{}, {}], "coordinateTransformations": )"
-            R"([{{"type": "scale", "scale": [30, 1, 2, 1, 1]}}]}}], "omero": {{"channels": )"
-            R"([{{"label": "DAPI"}}, {{}}]}})",
-            kAxes, dataset("0", "[1, 1, 2, 0.5, 0.25]", "[0, 0, 10, 0, 0]"),
-            dataset("1", "[1, 1, 2, 1, 0.5]", "[0, 0, 10, 0.25, 0.125]"));
-        const auto store =
-            isV3 ? v3Group(R"({"ome": {"version": "0.5", )" + said + "}}") : v2Group();
-        if (!isV3) put(store / ".zattrs", "{" + said + "}");
-        putLevel(store / "0", {2, 2, 2, 4, 6}, isV3);
-        putLevel(store / "1", {2, 2, 2, 2, 3}, isV3);
-        const auto reader = open(store);
-        ASSERT_THAT(namesOf(*reader),
-                    ElementsAre("0 DAPI", "0 channel 1", "1 DAPI", "1 channel 1"));
-        const Variable& fine = reader->variables()[0];
-        const auto& axes = fine.grid->axes();
-        EXPECT_EQ(axes[0], (Axis{"x", "micrometer", {0, 0.25, 0.5, 0.75, 1, 1.25}, false}));
-        EXPECT_EQ(axes[1], (Axis{"y", "micrometer", {0, 0.5, 1, 1.5}, false}));
-        EXPECT_EQ(axes[2], (Axis{"z", "micrometer", {20, 24}, false}));
-        EXPECT_THAT(timesOf(*reader), ElementsAre(0, 30));
-        EXPECT_EQ(fine.time->units, "second");
-        EXPECT_THAT(fine.notes, IsEmpty());
-        EXPECT_EQ(reader->variables()[2].grid->axes()[0],
-                  (Axis{"x", "micrometer", {0.125, 0.625, 1.125}, false}));
-        EXPECT_THAT(valuesOf<std::uint16_t>(*reader, "1 channel 1", 1),
-                    ElementsAre(11000, 11001, 11002, 11010, 11011, 11012, 11100, 11101, 11102,
-                                11110, 11111, 11112));
-        // The array alone.
-        const auto one = open(store / "1");
-        EXPECT_THAT(namesOf(*one), ElementsAre("1 DAPI", "1 channel 1"));
-        EXPECT_EQ(one->variables()[0].grid->axes()[2].coordinates, (std::vector<double>{20, 24}));
-    }
-}
-
-TEST(ZarrConventions, LabelsOfOmeAreCategories) {
-    const auto store = v2Group();
-    put(store / ".zattrs",
-        R"({"multiscales": [{"axes": ["z", "y", "x"], "datasets": [{"path": "s 0", )"
-        R"("coordinateTransformations": [{"type": "scale", "scale": [5, 1, 1]}]}]}]})");
-    putLevel(store / "s 0", {2, 3, 4}, false);
-    put(store / "labels/.zgroup", "{}");
-    put(store / "labels/the cells/.zgroup", "{}");
-    put(store / "labels/the cells/.zattrs",
-        R"({"image-label": {}, "multiscales": [{"axes": ["z", "y", "x"], "datasets": )"
-        R"([{"path": "0", "coordinateTransformations": [{"type": "scale", "scale": [3, 2, 1]}]}]}]})");
-    putLevel(store / "labels/the cells/0", {2, 3, 4}, false);
-    const auto reader = open(store);
-    ASSERT_THAT(namesOf(*reader), ElementsAre("s 0", "labels/the cells/0"));
-    EXPECT_FALSE(reader->variables()[0].categories);
-    EXPECT_EQ(reader->variables()[0].grid->axes()[2].coordinates, (std::vector<double>{0, 5}));
-    EXPECT_TRUE(reader->variables()[1].categories);
-    EXPECT_EQ(reader->variables()[1].grid->axes()[2].coordinates, (std::vector<double>{0, 3}));
-}
-
-TEST(ZarrConventions, AxesOfOmeAreWhatTheirTypesSay) {
-    const auto store = v2Group();
-    put(store / ".zattrs",
-        R"({"multiscales": [{"axes": [{"name": "frame", "type": "time"}, {"name": "row", "type": )"
-        R"("space"}, {"name": "column", "type": "space"}], "datasets": [{"path": "0", )"
-        R"("coordinateTransformations": [{"type": "scale", "scale": [1, 2, 3]}]}]}]})");
-    putLevel(store / "0", {3, 2, 4}, false);
-    const auto reader = open(store);
-    EXPECT_EQ(reader->variables()[0].grid->size(), (std::array<std::size_t, 3>{4, 2, 1}));
-    EXPECT_EQ(reader->variables()[0].time->points.size(), 3u);
-    EXPECT_TRUE(reader->variables()[0].time->counted);  // for want of a unit
-}
-
-TEST(ZarrConventions, ChannelsOfOneNameAreNumbered) {
-    const auto store = v2Group();
-    put(store / ".zattrs", R"({"multiscales": [{"datasets": [{"path": "0"}]}], "omero": )"
-                           R"({"channels": [{"label": "a"}, {"label": "a"}, {"label": "b"}]}})");
-    putLevel(store / "0", {1, 3, 2, 3, 4}, false);
-    EXPECT_THAT(namesOf(*open(store)), ElementsAre("0 a", "0 channel 1", "0 b"));
-}
-
-// Before version 0.3 the axes are t, c, z, y, x; a transformation that is not read places nothing.
-TEST(ZarrConventions, OldImagesOfOmeHaveFiveAxes) {
-    const auto store = v2Group();
-    for (const std::string transformations :
-         {"", R"(, "coordinateTransformations": [{"type": "affine", "affine": [[1]]}])"}) {
-        put(store / ".zattrs",
-            R"({"multiscales": [{"datasets": [{"path": "0"}])" + transformations + "}]}");
-        putLevel(store / "0", {3, 1, 2, 3, 4}, false);
-        const auto reader = open(store);
-        ASSERT_THAT(namesOf(*reader), ElementsAre("0"));
-        EXPECT_EQ(reader->variables()[0].time->points.size(), 3u);
-        EXPECT_TRUE(reader->variables()[0].time->counted);
-        EXPECT_EQ(reader->variables()[0].grid->size(), (std::array<std::size_t, 3>{4, 3, 2}));
-        EXPECT_EQ(reader->variables()[0].grid->axes()[0].units, "index");
-    }
-    put(store / ".zattrs", R"({"multiscales": [{"datasets": [)" +
-                               dataset("0", "[1, 1, 2, 2, 2]", "[0, 0, 0, 0, 0]") +
-                               R"(], "coordinateTransformations": [{"type": "affine"}]}]})");
-    EXPECT_EQ(open(store)->variables()[0].grid->axes()[0].units, "index");
 }
 
 }  // namespace

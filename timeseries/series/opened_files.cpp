@@ -33,8 +33,10 @@ std::string sampleOf(const fs::path& path, std::uint64_t bytes) {
 
 }  // namespace
 
-OpenedFiles::OpenedFiles(std::span<const fs::path> files) : mayGrow_(files.size() <= kFew) {
+OpenedFiles::OpenedFiles(std::span<const fs::path> files) {
     expectSame(files);
+    if (files.size() > kFew) return;
+    for (auto& [file, first] : files_) first.sample = sampleOf(file, first.bytes);
 }
 
 std::optional<OpenedFiles::Seen> OpenedFiles::look(const fs::path& file) {
@@ -51,7 +53,7 @@ void OpenedFiles::expectSame(std::span<const fs::path> files) {
         const auto [place, isNew] = files_.try_emplace(file);
         First& first = place->second;
         if (isNew) {
-            first = {*now, now->bytes, mayGrow_ ? sampleOf(file, now->bytes) : ""};
+            first = {*now, now->bytes, ""};
             continue;
         }
         if (first.seen == *now) continue;

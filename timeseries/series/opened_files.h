@@ -31,11 +31,10 @@ class OpenedFiles {
     struct First {
         Seen seen;
         std::uint64_t bytes;  // then
-        std::string sample;   // of these; "" of one among many
+        std::string sample;   // of these; "" of one that may not grow
     };
     static std::optional<Seen> look(const std::filesystem::path& file);
 
-    const bool mayGrow_;
     std::map<std::filesystem::path, First> files_;
 };
 

@@ -1,5 +1,6 @@
 #include "timeseries/readers/arrays/vdb_file.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <new>
+#include <stdexcept>
 #include <string>
 
 #include "timeseries/readers/forked_call.h"
@@ -25,11 +27,20 @@ void allowMemory(std::uint64_t bytes) {
     setrlimit(RLIMIT_AS, &limit);
 }
 
+// As it was built and installed with the program, for good. Throws std::runtime_error, of the
+// linker's words.
+const VdbLibrary* loaded() {
+    void* const library = dlopen("libisochron_vdb.so", RTLD_LAZY | RTLD_LOCAL);
+    const void* const found = library == nullptr ? nullptr : dlsym(library, "isochronVdb");
+    if (found == nullptr) throw std::runtime_error(dlerror());
+    return static_cast<const VdbLibrary*>(found);
+}
+
 }  // namespace
 
 VdbFile::VdbFile(const std::filesystem::path& path, Header header) : path_(path) {
     try {
-        library_ = &loadVdbLibrary();
+        library_ = loaded();
     } catch (const std::runtime_error& error) {
         fail("OpenVDB",
              fmt::format("expected this program's part that reads it, but {}", error.what()));

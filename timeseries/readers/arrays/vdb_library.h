@@ -23,9 +23,6 @@ struct VdbLibrary {
     Values (*read)(const std::filesystem::path& path, const VdbGrid& grid, const VdbBox& box);
 };
 
-// As it was built and installed with the program. Throws std::runtime_error, of the linker's words.
-const VdbLibrary& loadVdbLibrary(const char* name = "libisochron_vdb.so");
-
 }  // namespace timeseries
 
 // In the library.

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <utility>
 
 #include "timeseries/readers/foam/foam_file.h"
 #include "timeseries/readers/limits.h"
@@ -155,20 +156,24 @@ FoamTimes chooseParts(FoamCase& all) {
     FoamTimes own = timesIn(all.folder);
     const auto processors = processorsOf(all.folder);
     FoamTimes common = processors.empty() ? FoamTimes() : timesIn(processors[0]);
-    std::map<std::string, std::size_t> holders;  // of a time, how many processors have it
+    // Of a time, how many processors have it.
+    std::map<std::pair<double, std::string>, std::size_t> holders;
     for (const fs::path& processor : processors)
-        for (const FoamTime& time : timesIn(processor)) ++holders[time.name];
-    std::erase_if(common,
-                  [&](const FoamTime& time) { return holders[time.name] < processors.size(); });
+        for (const FoamTime& time : timesIn(processor)) ++holders[{time.value, time.name}];
+    std::erase_if(common, [&](const FoamTime& time) {
+        return holders[{time.value, time.name}] < processors.size();
+    });
+    std::erase_if(holders, [&](const auto& each) { return each.second == processors.size(); });
     if (common.size() > own.size()) {
         expectAllFromZero(processors);
         all.parts = processors;
         all.notes.push_back(fmt::format("read from its {} processor folders", processors.size()));
-        for (const auto& [time, count] : holders)
-            if (count < processors.size())
-                all.notes.push_back(
-                    fmt::format("{} is left out: {} of {} processor folders have it", time, count,
-                                processors.size()));
+        if (holders.empty()) return common;
+        const auto& [time, count] = *holders.begin();
+        all.notes.push_back(fmt::format("{} is left out: {} of {} processor folders have it",
+                                        time.second, count, processors.size()));
+        if (holders.size() > 1)
+            all.notes.back() += fmt::format(", and so are {} later times", holders.size() - 1);
         return common;
     }
     const std::string collated = collatedIn(all.folder);

@@ -120,11 +120,11 @@ std::vector<bool> NetcdfFile::triedTogether(std::span<const std::filesystem::pat
 }
 
 void NetcdfFile::open() {
-    hasValuesElsewhere_ = hdf5HasValuesElsewhere(path_);
     // Absolute: the library takes what looks like a URL for one.
     check(nc_open(std::filesystem::absolute(path_).c_str(), NC_NOWRITE, &id_), "",
           "a whole netCDF file, whose links lead somewhere");
     try {
+        hasValuesElsewhere_ = hdf5HasValuesElsewhere(path_);  // while it shares what is read of it
         readHeader();
     } catch (...) {
         nc_close(id_);

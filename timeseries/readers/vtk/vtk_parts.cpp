@@ -274,10 +274,11 @@ std::string_view vtkTypeOfParts(std::string_view type) {
 }
 
 void keepDeclared(const XmlFile& file, std::vector<VtkArray>& arrays) {
+    const XmlElement& grid = gridOfParts(file);
     std::set<std::pair<VtkPlace, std::string>> declared;
     for (const auto& [name, place] :
          {std::pair("PPointData", VtkPlace::Points), {"PCellData", VtkPlace::Cells}})
-        for (const XmlElement* data : named(gridOfParts(file), name))
+        for (const XmlElement* data : named(grid, name))
             for (const XmlElement& array : data->children)
                 declared.emplace(place, array.attribute("Name"));
     if (declared.empty()) return;
