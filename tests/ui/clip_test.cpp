@@ -58,7 +58,7 @@ TEST_F(DeskClips, WhatLiesBeyondTheDraggedFaceUntilItIsUndone) {
     const Shot clipped = picture();
     app::Explorer after = now();
     ASSERT_TRUE(after.clip);
-    const std::shared_ptr<const timeseries::Grid> grid = demoReader()->variables()[0].grid;
+    const std::shared_ptr<const timeseries::Grid> grid = demoReader().variables()[0].grid;
     const std::vector<double>& z = grid->axes()[2].coordinates;
     const double length = z.back() - z.front(), face = after.clip->hi.z;
     EXPECT_NEAR(face, z.front() + 0.4 * length,

@@ -11,19 +11,20 @@ namespace ui {
 
 constexpr std::size_t kDemoSteps = 31;
 
-inline std::unique_ptr<timeseries::Reader> demoReader() {
-    const std::filesystem::path file = demo();
-    return timeseries::openReader(std::span(&file, 1));
+inline timeseries::Reader& demoReader() {
+    static const std::filesystem::path file = demo();
+    static const auto reader = timeseries::openReader(std::span(&file, 1));
+    return *reader;
 }
 
 // The demo's values at one step, as the reader gives them.
 inline std::vector<float> valuesAt(std::size_t step) {
-    return std::get<std::vector<float>>(demoReader()->read(0, step).values);
+    return std::get<std::vector<float>>(demoReader().read(0, step).values);
 }
 
 // The time of each step, in seconds.
 inline std::vector<double> demoTimes() {
-    const auto axis = demoReader()->variables()[0].time;
+    const auto axis = demoReader().variables()[0].time;
     std::vector<double> times;
     for (const timeseries::TimePoint& point : axis->points) times.push_back(point.value);
     return times;
@@ -39,13 +40,16 @@ inline std::uint64_t countIn(const app::Explorer& e) {
 
 // The least and the greatest value of all steps.
 inline std::pair<double, double> demoExtent() {
-    float lo = INFINITY, hi = -INFINITY;
-    for (std::size_t step = 0; step < kDemoSteps; ++step)
-        for (const float value : valuesAt(step)) {
-            lo = std::min(lo, value);
-            hi = std::max(hi, value);
-        }
-    return {lo, hi};
+    static const auto extent = [] {
+        float lo = INFINITY, hi = -INFINITY;
+        for (std::size_t step = 0; step < kDemoSteps; ++step)
+            for (const float value : valuesAt(step)) {
+                lo = std::min(lo, value);
+                hi = std::max(hi, value);
+            }
+        return std::pair<double, double>(lo, hi);
+    }();
+    return extent;
 }
 
 // The values between which the histogram stands, once all steps are seen; waits for that.

@@ -65,14 +65,18 @@ Driver::Driver(const Screen& screen, const std::filesystem::path& folder,
     sync();
 }
 
-void Driver::waitFor(std::string_view what, const std::function<bool()>& holds) {
-    waitUntil(what, [&] {
-        if (holds()) return true;
-        if (!process_.isRunning())
-            throw std::runtime_error(
-                fmt::format("the program ended while waiting: {}: {}", what, process_.errors()));
-        return false;
-    });
+void Driver::waitFor(std::string_view what, const std::function<bool()>& holds,
+                     std::chrono::milliseconds pause) {
+    waitUntil(
+        what,
+        [&] {
+            if (holds()) return true;
+            if (!process_.isRunning())
+                throw std::runtime_error(fmt::format("the program ended while waiting: {}: {}",
+                                                     what, process_.errors()));
+            return false;
+        },
+        pause);
 }
 
 void Driver::waitForTitle(std::string_view piece) {
@@ -135,14 +139,18 @@ Shot Driver::settled() {
     sync();
     Shot last = shot();
     Clock::time_point since = Clock::now();
-    waitFor("the window comes to rest", [&] {
-        sync();
-        Shot now = shot();
-        const bool rests = now == last && Clock::now() - since >= kRefined;
-        if (now != last) since = Clock::now();
-        last = std::move(now);
-        return rests;
-    });
+    // Each look makes the program draw twice.
+    waitFor(
+        "the window comes to rest",
+        [&] {
+            sync();
+            Shot now = shot();
+            const bool same = now == last;
+            if (!same) since = Clock::now();
+            last = std::move(now);
+            return same && Clock::now() - since >= kRefined;
+        },
+        std::chrono::milliseconds(60));
     return last;
 }
 

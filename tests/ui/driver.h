@@ -38,7 +38,8 @@ class Driver {
     void sync();
     // How long the program took to answer: no frame took longer.
     std::chrono::nanoseconds ping();
-    void waitFor(std::string_view what, const std::function<bool()>& holds);
+    void waitFor(std::string_view what, const std::function<bool()>& holds,
+                 std::chrono::milliseconds pause = std::chrono::milliseconds(5));
     void waitForTitle(std::string_view piece);
 
     Shot shot() const;

@@ -85,7 +85,7 @@ class DeskReads : public DeskWithFire {
         return text_.beside(window, side_.page, label);
     }
 
-    std::shared_ptr<const timeseries::Grid> grid_ = demoReader()->variables()[0].grid;
+    std::shared_ptr<const timeseries::Grid> grid_ = demoReader().variables()[0].grid;
     app::Explorer e_;
     std::vector<Foremost> points_;  // from the left to the right
     ScreenText text_;

@@ -12,14 +12,16 @@ namespace ui {
 
 constexpr std::chrono::seconds kDeadline{60};
 
-// Asks again and again; throws std::runtime_error when `holds` has not become true in time.
+// Asks again and again, after a pause each time; throws std::runtime_error when `holds` has not
+// become true in time.
 template <typename Condition>
-void waitUntil(std::string_view what, const Condition& holds) {
+void waitUntil(std::string_view what, const Condition& holds,
+               std::chrono::milliseconds pause = std::chrono::milliseconds(5)) {
     const auto end = std::chrono::steady_clock::now() + kDeadline;
     while (!holds()) {
         if (std::chrono::steady_clock::now() > end)
             throw std::runtime_error(fmt::format("waited in vain: {}", what));
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        std::this_thread::sleep_for(pause);
     }
 }
 
