@@ -1,6 +1,7 @@
 // isochron: parses the command line, runs one command, and turns failures into one sentence.
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <stdexcept>
 
 #include "app/choices/choice_text.h"
@@ -48,6 +49,9 @@ int main(int argc, char** argv) {
     } catch (const app::ChoiceError& error) {  // what only the data tell to be wrong
         app::sayTo(stderr, "isochron: {}\n", error.what());
         return 2;
+    } catch (const std::bad_alloc&) {
+        app::sayTo(stderr, "isochron: there is not enough memory for this\n");
+        return 1;
     } catch (const std::exception& error) {
         app::sayTo(stderr, "isochron: {}\n", error.what());
         return 1;

@@ -42,6 +42,12 @@ ordered_json number(const Number& n) {
         n);
 }
 
+// Infinite values are counted, and told from none.
+ordered_json extreme(const Number& n) {
+    const double x = timeseries::toDouble(n);
+    return std::isinf(x) ? ordered_json(x > 0 ? "inf" : "-inf") : number(n);
+}
+
 ordered_json json(const RangeSet& layer) {
     ordered_json out{{"text", layer.text()}, {"ranges", ordered_json::array()}};
     for (const timeseries::Range& range : layer.ranges())
@@ -58,8 +64,8 @@ ordered_json json(const Dataset& dataset, const Row& row) {
                      {"date", dataset.variable.time->points[row.step].date},
                      {"points", row.statistics.points},
                      {"missing", row.statistics.missing},
-                     {"min", number(row.statistics.min)},
-                     {"max", number(row.statistics.max)},
+                     {"min", extreme(row.statistics.min)},
+                     {"max", extreme(row.statistics.max)},
                      {"selected", row.selected},
                      {"percent", row.percent(row.selected)},
                      {"layers", ordered_json::array()}};

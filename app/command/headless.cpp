@@ -73,36 +73,41 @@ DepthErrors errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& s
                          eyes(e.view, e.stereo, outline, e.size).front(), std::span(&drawn, 1));
 }
 
-// How opaque a passage is drawn is chosen, and no error.
-std::string errorText(const DepthErrors& errors, const Explorer& e) {
+std::string errorText(const DepthErrors& errors) {
     if (errors.rungs.empty()) return "";
     const RungError& error = errors.rungs.front();
     const std::string depth = depthErrorText(error.depth);
     if (depth.empty()) return "";
-    const bool isByLength =
-        modelOf(e) == Model::Points || e.opacityPer == render::OpacityPer::Length;
-    return depth + " of optical depth" + (isByLength ? "" : " by length") +
-           lightErrorText(error, errors.ordering);
+    return depth + " of optical depth" + lightErrorText(error, errors.ordering);
 }
 
-// What all pictures have said of their error: that of the one in the middle, since working it out
-// takes longer than drawing a picture.
+// What all pictures have said of their error: that of the one in the middle, or of the nearest to
+// it that shows something, since working it out takes longer than drawing a picture.
 struct MiddleError {
     std::optional<double> depth;
     std::string text;          // as it is said
     std::filesystem::path of;  // that picture
 };
 MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSource& source) {
-    const FrameAt middle = frames[frames.size() / 2];
-    MiddleError error{{}, {}, middle.file};
-    try {
-        const auto step = source.get(middle.step, frames.front().step);
-        if (!hasDepthError(*step)) return error;
-        const DepthErrors errors = errorOf(e, middle, *step);
-        error.depth = errors.of({modelOf(e)});
-        error.text = errorText(errors, e);
-    } catch (const timeseries::FileError&) {
-        // What cannot be read is told when its turn comes, after the pictures before it.
+    constexpr std::size_t kAsked = 9;
+    const std::size_t middle = frames.size() / 2;
+    MiddleError error{{}, {}, frames[middle].file};
+    // Those before it and behind it in turn.
+    for (std::size_t k = 0, asked = 0; k <= 2 * middle + 1 && asked < kAsked; ++k) {
+        const std::size_t i = k % 2 == 1 ? middle - (k + 1) / 2 : middle + k / 2;
+        if (i >= frames.size()) continue;
+        ++asked;
+        const FrameAt frame = frames[i];
+        try {
+            const auto step = source.get(frame.step, frames.front().step);
+            if (!hasDepthError(*step)) continue;
+            const DepthErrors errors = errorOf(e, frame, *step);
+            const auto depth = errors.of({modelOf(e)});
+            if (!depth || std::isnan(*depth)) continue;
+            return {depth, errorText(errors), frame.file};
+        } catch (const timeseries::FileError&) {
+            // What cannot be read is told when its turn comes, after the pictures before it.
+        }
     }
     return error;
 }
@@ -202,7 +207,7 @@ int renderHeadless(const RenderOptions& options) {
     const Dataset& dataset = chosen.dataset;
     const DrawingDevice device(options.by);
     render::FrameRenderer renderer(device.splatter());
-    const FrameFiles frames(options.output, e, chosen.steps);
+    const FrameFiles frames(options.output, e, chosen.steps, dataset.stepCount());
     const MiddleError error = errorOfMiddle(e, frames, *chosen.source);
     const auto [mixed, empty, flat, why] =
         drawFrames(options, e, dataset.variable, frames, error, *chosen.source, renderer);

@@ -44,6 +44,7 @@ struct Subject {
     const timeseries::SortedStep& step;
     std::size_t stepIndex;
     std::string drawnBy;
+    std::uint64_t selected;
 
     std::string title() const {
         const timeseries::Variable& variable = data.dataset.variable;
@@ -63,23 +64,28 @@ std::string truthText(const MeasureOptions& options) {
         options.explorer.light == render::Light::Off ? "" : "; of lit cells lit as they are");
 }
 
+constexpr const char* kNothing =
+    "no point is in a range that is shown: there was nothing to measure";
+
 ordered_json json(const Subject& subject, const std::vector<Measured>& modes) {
     const MeasureOptions& options = subject.options;
     const Explorer& e = subject.data.explorer;
-    ordered_json out{{"file", subject.data.dataset.name},
-                     {"variable", subject.data.dataset.variable.name},
-                     {"units", subject.data.dataset.variable.units},
-                     {"step", subject.stepIndex},
-                     {"ranges", rangesText(subject.data, subject.step)},
-                     {"points", subject.step.statistics().points},
-                     {"size", {e.size.x, e.size.y}},
-                     {"frames", options.frames},
-                     {"rays", options.rays},
-                     {"drawnBy", subject.drawnBy},
-                     {"threads", render::sharingThreads()},
-                     {"truth", truthText(options)},
-                     {"views", ordered_json::array()},
-                     {"modes", ordered_json::array()}};
+    ordered_json out{
+        {"file", subject.data.dataset.name},
+        {"variable", subject.data.dataset.variable.name},
+        {"units", subject.data.dataset.variable.units},
+        {"step", subject.stepIndex},
+        {"ranges", rangesText(subject.data, subject.step)},
+        {"points", subject.step.statistics().points},
+        {"size", {e.size.x, e.size.y}},
+        {"frames", options.frames},
+        {"rays", options.rays},
+        {"drawnBy", subject.drawnBy},
+        {"threads", render::sharingThreads()},
+        {"truth", truthText(options)},
+        {"notes", subject.selected == 0 ? ordered_json{kNothing} : ordered_json::array()},
+        {"views", ordered_json::array()},
+        {"modes", ordered_json::array()}};
     for (const ViewChoice& view : viewsAbout(e.view, options.views))
         out["views"].push_back(
             {{"azimuth", view.azimuthDegrees}, {"elevation", view.elevationDegrees}});
@@ -94,6 +100,7 @@ void print(const Subject& subject, const std::vector<Measured>& modes) {
     say("{}\n{} x {} pixels, {} view{}, {} frames of each, drawn by {}\ntruth: {}\n\n{}{}",
         subject.title(), e.size.x, e.size.y, options.views, options.views == 1 ? "" : "s",
         options.frames, subject.drawnBy, truthText(options), table(modes), bestTable(modes));
+    if (subject.selected == 0) say("note: {}\n", kNothing);
 }
 
 // Throws ChoiceError where what is measured would be written over.
@@ -141,7 +148,7 @@ int measureModes(const MeasureOptions& options) {
             selected +=
                 step->count(step->keptPart(layer.motion ? layer.motion->animation : layer.ranges));
     const DrawingDevice device(options.by);
-    const Subject subject{options, data, *step, index, device.name()};
+    const Subject subject{options, data, *step, index, device.name(), selected};
     const render::PlacedPoints placed(step->grid(), data.explorer.scale, data.explorer.map);
     std::vector<Measured> modes;
     {
@@ -158,8 +165,6 @@ int measureModes(const MeasureOptions& options) {
         say("{}\n", jsonText(json(subject, modes), 2));
     else
         print(subject, modes);
-    if (selected == 0 && !options.json)
-        say("note: no point is in a range that is shown: there was nothing to measure\n");
     writeFiles(options, modes, subject.title());
     return 0;
 }

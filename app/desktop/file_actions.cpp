@@ -166,7 +166,8 @@ void FileActions::exportTo(const fs::path& output) {
     telling(exploration_, [&] {
         const Explorer animation = animationOf(exploration_.explorer(), shown->dataset);
         export_.emplace(animation, FrameFiles(fs::absolute(output), animation,
-                                              stepsOf(shown->dataset, *animation.steps)));
+                                              stepsOf(shown->dataset, *animation.steps),
+                                              shown->dataset.stepCount()));
     });
 }
 

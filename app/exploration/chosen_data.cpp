@@ -1,5 +1,6 @@
 #include "app/exploration/chosen_data.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -7,6 +8,7 @@
 #include "app/choices/clip_flaw.h"
 #include "app/choices/map_flaw.h"
 #include "app/files/chosen_axes.h"
+#include "app/files/progress.h"
 #include "app/picture/picture.h"
 #include "app/picture/resolved.h"
 
@@ -18,6 +20,22 @@ Steps sample(StepSource& source, const std::vector<std::size_t>& steps) {
     for (const std::size_t step : {steps.front(), steps[steps.size() / 2], steps.back()})
         sampled[step] = source.get(step, step);
     return sampled;
+}
+
+std::optional<Extent> extentOfAll(const Explorer& e, StepSource& source,
+                                  const std::vector<std::size_t>& steps) {
+    Progress progress("step", steps.size());
+    std::optional<Extent> all;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        progress.at(i);
+        const std::size_t next = steps[std::min(i + 1, steps.size() - 1)];
+        try {
+            all = around(all, extentOf(e, *source.get(steps[i], next)));
+        } catch (const timeseries::FileError&) {
+            // Told when its turn comes.
+        }
+    }
+    return all;
 }
 
 }  // namespace
@@ -43,6 +61,8 @@ ChosenData openChosen(const Explorer& choices) {
         dataset, e.keep.value_or(timeseries::RangeSet::everything()), rangesNeeded(e));
     if (mayMove && e.clip && steps.size() == 1)
         expectClip(source->get(steps.front(), steps.front())->grid());
+    if (sweepsOn(e))
+        if (const auto all = extentOfAll(e, *source, steps)) endSweeps(e, *all);
     if (needsSamples(e)) e = resolved(e, sample(*source, steps));
     return {std::move(dataset), std::move(e), std::move(steps), std::move(source)};
 }

@@ -20,7 +20,8 @@ struct ChosenData {
 };
 
 // Where something is left to choose from the data, it is chosen from the first, middle and last of
-// the steps. Throws FileError; ChoiceError for choices that do not fit the data.
+// the steps; where a sweep goes on as far as the data do, that is asked of each step. Throws
+// FileError; ChoiceError for choices that do not fit the data.
 ChosenData openChosen(const Explorer& choices);
 
 }  // namespace app

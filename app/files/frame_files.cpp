@@ -11,7 +11,8 @@ namespace app {
 
 namespace fs = std::filesystem;
 
-FrameFiles::FrameFiles(fs::path output, const Explorer& e, std::vector<std::size_t> steps)
+FrameFiles::FrameFiles(fs::path output, const Explorer& e, std::vector<std::size_t> steps,
+                       std::size_t stepCount)
     : output_(std::move(output)),
       steps_(std::move(steps)),
       swept_(sweepOf(e) != nullptr && !e.oneTick),
@@ -19,7 +20,8 @@ FrameFiles::FrameFiles(fs::path output, const Explorer& e, std::vector<std::size
       stereo_(e.stereo.mode) {
     count_ = swept_ ? static_cast<std::size_t>(timeseries::ValueSweep(*sweepOf(e)).ticksPerCycle())
                     : steps_.size();
-    digits_ = std::to_string(swept_ ? count_ - 1 : steps_.back()).size();
+    digits_ =
+        std::to_string(swept_ ? count_ - 1 : std::max(steps_.back() + 1, stepCount) - 1).size();
 }
 
 FrameAt FrameFiles::operator[](std::size_t i) const {

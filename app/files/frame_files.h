@@ -23,9 +23,11 @@ struct FrameAt {
 class FrameFiles {
  public:
     // `output`: OUT.png or OUT.exr; of several frames each has its step, or with a sweep its tick,
-    // in its name. REQUIRES: steps, ascending; a sweep whose ends are finite.
+    // in its name, with as many digits as the last of the series' `stepCount` steps has, so that
+    // those of several runs lie in order. REQUIRES: steps, ascending; a sweep whose ends are
+    // finite.
     FrameFiles(std::filesystem::path output, const Explorer& explorer,
-               std::vector<std::size_t> steps);
+               std::vector<std::size_t> steps, std::size_t stepCount = 0);
 
     const std::filesystem::path& output() const { return output_; }
     std::size_t size() const { return count_; }

@@ -102,7 +102,7 @@ std::vector<std::string> errorLines(const Performance& p) {
     if (p.errors && !p.errors->whyNone.empty())
         return {"Error of optical depth not known: " + p.errors->whyNone};
     if (!p.errors || p.errors->rungs.empty()) return lines;
-    lines.emplace_back("Error of optical depth by length, against the field between its points:");
+    lines.emplace_back("Error of optical depth, against the field between its points:");
     for (const RungError& error : p.errors->rungs)
         lines.push_back(fmt::format("{}  {}{}", shareText(error.depth), rungText(error.rung),
                                     error.rung == p.drawn() ? ", as drawn" : ""));

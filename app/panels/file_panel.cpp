@@ -109,7 +109,8 @@ std::string FilePanel::warning(const PanelContext& context, const fs::path& path
     std::size_t files = 1, existing = 0;
     if (*for_ == For::Export && shown) {
         const Explorer animation = animationOf(context.exploration.explorer(), shown->dataset);
-        const FrameFiles frames(path, animation, stepsOf(shown->dataset, *animation.steps));
+        const FrameFiles frames(path, animation, stepsOf(shown->dataset, *animation.steps),
+                                shown->dataset.stepCount());
         files = frames.fileCount();
         existing = frames.existing();
     } else {

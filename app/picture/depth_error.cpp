@@ -38,7 +38,8 @@ class Ways {
     // For depth alone.
     render::Scene sceneOf(const Rung& rung) const {
         Explorer e = drawnBy(rung.model);
-        e.opacityPer = render::OpacityPer::Length;
+        // Who chose points chose lengths; where they stand for cells, they miss what these cross.
+        if (modelOf(explorer_) == Model::Points) e.opacityPer = render::OpacityPer::Length;
         e.order = render::Order::None;
         render::Scene scene = makeScene(e, step_, placed_, e.play.tick);
         scene.stride = rung.stride;

@@ -3,7 +3,8 @@
 //
 // With T the truth at some of the picture's pixels, each the mean of 8 x 8 rays, M the model drawn
 // whole with as many rays in a pixel, P the same with the rays that are drawn, one or a few, and D
-// what is drawn, all of optical depth, of lengths in the ranges whatever opacity is of:
+// what is drawn, all of optical depth, of lengths in the ranges or of crossings, as opacity is
+// (render::OpacityPer); of points, which have lengths alone, where they were chosen:
 //   whole  |D - T| / |T|
 //   model  |M - T| / |T|   cells or points instead of the interval volume
 //   pixels |P - M| / |T|   few rays a pixel, or one for several pixels, instead of its mean

@@ -27,21 +27,11 @@ Quantiles quantilesOf(const Steps& sampled) {
     return rows;
 }
 
-// The finite values that may be shown; {0, 0} where there are none.
+// {0, 0} where there are none.
 Extent extentOf(const Explorer& e, const Steps& sampled) {
-    Extent all{kInfinity, -kInfinity};
-    for (const auto& [index, step] : sampled) {
-        const auto& whole = step->statistics();
-        const std::vector<double> ends = e.keep
-                                             ? step->quantiles(2)
-                                             : std::vector{timeseries::toDouble(whole.finiteMin),
-                                                           timeseries::toDouble(whole.finiteMax)};
-        for (const double end : ends) {
-            if (std::isnan(end)) continue;
-            all = {std::min(all.lo, end), std::max(all.hi, end)};
-        }
-    }
-    return all.lo <= all.hi ? all : Extent{};
+    std::optional<Extent> all;
+    for (const auto& [index, step] : sampled) all = around(all, extentOf(e, *step));
+    return all.value_or(Extent{});
 }
 
 std::uint64_t mostSelected(const RangeSet& ranges, const Steps& sampled) {
@@ -156,6 +146,33 @@ Extent finiteEnds(const RangeSet& ranges, const Extent& data) {
     return data;
 }
 
+std::optional<Extent> around(const std::optional<Extent>& a, const std::optional<Extent>& b) {
+    if (!a || !b) return a ? a : b;
+    return Extent{std::min(a->lo, b->lo), std::max(a->hi, b->hi)};
+}
+
+std::optional<Extent> extentOf(const Explorer& e, const timeseries::SortedStep& step) {
+    const auto& whole = step.statistics();
+    const std::vector<double> ends = e.keep ? step.quantiles(2)
+                                            : std::vector{timeseries::toDouble(whole.finiteMin),
+                                                          timeseries::toDouble(whole.finiteMax)};
+    std::optional<Extent> all;
+    for (const double end : ends)
+        if (!std::isnan(end)) all = around(all, Extent{end, end});
+    return all;
+}
+
+bool sweepsOn(const Explorer& e) {
+    return std::ranges::any_of(e.layers, [](const LayerChoice& layer) {
+        return layer.motion && infinite(layer.motion->animation);
+    });
+}
+
+void endSweeps(Explorer& e, const Extent& data) {
+    for (LayerChoice& layer : e.layers)
+        if (layer.motion) layer.motion->animation = finitePart(layer.motion->animation, data);
+}
+
 bool needsSamples(const Explorer& e) {
     const auto open = [](const LayerChoice& layer) {
         return openStyle(layer) ||
@@ -180,12 +197,10 @@ Explorer resolved(const Explorer& explorer, const Steps& sampled) {
     const Extent data = extentOf(e, sampled);
     if (e.layers.empty() && !e.noLayers) e.layers = classLayers(sampled);
     if (e.layers.empty() && !e.noLayers) e.layers.push_back({});
+    endSweeps(e, data);
     for (std::size_t place = 0; place < e.layers.size(); ++place) {
         LayerChoice& layer = e.layers[place];
-        if (layer.motion)
-            layer.motion->animation = finitePart(layer.motion->animation, data);
-        else if (layer.ranges.empty())
-            chooseFirst(layer, sampled);
+        if (!layer.motion && layer.ranges.empty()) chooseFirst(layer, sampled);
         const RangeSet& all = layer.motion ? layer.motion->animation : layer.ranges;
         style(layer, finiteEnds(all, data), place, e.layers.size());
         // A swept window holds about its share of the animation's points.

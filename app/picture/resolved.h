@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "app/choices/explorer.h"
 #include "app/choices/first_choice.h"
@@ -19,6 +20,13 @@ bool needsSamples(const Explorer& explorer);
 // All that these choices, resolved or not, ask of a step's points: the ranges of all layers, hidden
 // ones' too; everything where some are left to choose, or move.
 timeseries::RangeSet rangesNeeded(const Explorer& explorer);
+// Whether sweeps go on as far as the data do; and where that is: from the least to the greatest of
+// the finite values of these steps that may be shown. None where there are none.
+bool sweepsOn(const Explorer& explorer);
+std::optional<Extent> extentOf(const Explorer& explorer, const timeseries::SortedStep& step);
+std::optional<Extent> around(const std::optional<Extent>& a, const std::optional<Extent>& b);
+// Throws ChoiceError where sweeps reach none of these.
+void endSweeps(Explorer& explorer, const Extent& data);
 // The choices with nothing left open, hidden layers' too (showing one later changes no other's
 // colour), from a few steps of the series. A resolved Explorer draws the
 // same picture again whatever is sampled. Throws ChoiceError when an unbounded sweep does not reach

@@ -1,6 +1,8 @@
 #include "render/image/picture_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -33,16 +35,15 @@ PartialFile::PartialFile(std::filesystem::path destination) : destination_(std::
         if (!stream_) throw ImageError(destination_, "cannot be written: " + lastError());
         return;
     }
-    // O_EXCL: two programs writing the same picture never share a partial file.
-    constexpr int kAttempts = 100;
-    int descriptor = -1;
-    for (int n = 0; descriptor < 0 && n < kAttempts; ++n) {
-        partial_ = target_;
-        partial_ += ".part" + std::to_string(n);
-        descriptor = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor < 0 && errno != EEXIST) break;
-    }
+    // What is not to be written is not replaced either, and who may read it stays as it is.
+    struct stat there {};
+    const bool replaces = ::stat(target_.c_str(), &there) == 0;
+    if (replaces && ::access(target_.c_str(), W_OK) != 0)
+        throw ImageError(destination_, "cannot be written: " + lastError());
+    const int descriptor = openPartial();
     if (descriptor < 0) throw ImageError(destination_, "cannot be created: " + lastError());
+    if (replaces) (void)::fchmod(descriptor, there.st_mode & 07777);
+    locked_ = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
     stream_.reset(::fdopen(descriptor, "wb"));
     if (stream_) return;
     const std::string why = lastError();
@@ -51,8 +52,37 @@ PartialFile::PartialFile(std::filesystem::path destination) : destination_(std::
     throw ImageError(destination_, "cannot be written: " + why);
 }
 
+// Two programs that write the same picture never share one: each has a lock on its own. One without
+// is what a program has left that was ended.
+int PartialFile::openPartial() {
+    constexpr int kAttempts = 100;
+    for (int n = 0; n < kAttempts;) {
+        partial_ = target_;
+        partial_ += ".part" + std::to_string(n);
+        int file = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file >= 0) {
+            (void)::flock(file, LOCK_EX | LOCK_NB);
+            struct stat made {};
+            if (::fstat(file, &made) == 0 && made.st_nlink > 0) return file;
+            ::close(file);  // taken for a leftover before it had its lock
+            continue;
+        }
+        if (errno != EEXIST) break;
+        file = ::open(partial_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+        if (file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::unlink(partial_.c_str()) == 0) {
+            ::close(file);
+            continue;
+        }
+        if (file >= 0) ::close(file);
+        ++n;
+    }
+    partial_.clear();
+    return -1;
+}
+
 PartialFile::~PartialFile() {
     if (!partial_.empty()) ::unlink(partial_.c_str());
+    if (locked_ >= 0) ::close(locked_);
 }
 
 void PartialFile::commit() {

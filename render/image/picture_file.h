@@ -10,8 +10,8 @@
 namespace render {
 
 // Written beside its destination and renamed over it by commit(), so a write that fails or is cut
-// short leaves what was there. Without commit() the destructor removes it. What is no file, as a
-// pipe or /dev/stdout, is written into.
+// short leaves what was there. Without commit() the destructor removes it, and the next one that of
+// a program that was ended. What is no file, as a pipe or /dev/stdout, is written into.
 class PartialFile {
  public:
     // Throws ImageError.
@@ -24,12 +24,14 @@ class PartialFile {
     void commit();  // once; throws ImageError
 
  private:
+    int openPartial();  // -1: errno tells why not
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
     std::filesystem::path destination_, target_;  // as it was named, and where links lead
     std::filesystem::path partial_;               // empty where it is written into
     std::unique_ptr<std::FILE, Close> stream_;
+    int locked_ = -1;  // the partial file, locked until it has its name
 };
 
 // Throws ImageError.

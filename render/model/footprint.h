@@ -235,6 +235,12 @@ struct PointsView {
     // smaller in pixels than it may be.
     double smallestRadius;
 };
+// As it sees cells, and what is held against them.
+struct CellsView : PointsView {
+    CellsView(const PlacedPoints& of, const View& view) : PointsView(of, view) {
+        rays = besideFaces(rays);
+    }
+};
 
 // Semi-axes of a cell's splat; those of long cells are no longer than what they are cut to can use.
 template <typename Real>

@@ -129,6 +129,10 @@ struct Scene {
 inline bool isByCells(const Scene& scene, const Layer& layer) {
     return scene.cells && !layer.byPoints;
 }
+// Points have lengths alone.
+inline OpacityPer opacityPerOf(const Scene& scene, const Layer& layer) {
+    return isByCells(scene, layer) ? scene.opacityPer : OpacityPer::Length;
+}
 // Some layers are drawn by cells and others by points. REQUIRES then: stride 1.
 bool mixesModels(const Scene& scene);
 // What it has of either: the layers are as many, those of the other show nothing.

@@ -4,7 +4,6 @@
 #include <glm/matrix.hpp>
 
 namespace render {
-
 glm::dmat4 clipFromView(const Frustum& f) {
     // OpenXR's and GL's asymmetric projection with depth [0, 1]: columns of x, y, z, 1.
     glm::dmat4 m(0.0);
@@ -53,6 +52,13 @@ PixelRays pixelRays(const View& view) {
     rays.perPixelY = worldFromView[1] / rays.focal.y;
     rays.axis = -worldFromView[2];
     rays.near = p[3][2] / p[2][2];
+    return rays;
+}
+
+PixelRays besideFaces(PixelRays rays) {
+    // A golden ratio apart, so that no plane of small whole numbers holds both.
+    constexpr glm::dvec2 kBeside{3e-3, 3e-3 * 0.6180339887498949};
+    rays.centre += kBeside;
     return rays;
 }
 

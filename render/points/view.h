@@ -53,6 +53,11 @@ struct PixelRays {
     }
 };
 PixelRays pixelRays(const View& view);
+// As cells are drawn and held against the truth: as if the view axis lay a few thousandths of a
+// pixel beside its place, which nothing shows. In a picture along an axis, or a diagonal, of its
+// grid no pixel's ray lies in a face between cells then, of which rounding would tell whether both
+// have it, or neither.
+PixelRays besideFaces(PixelRays rays);
 
 // View depth (> 0 in front of the eye) and window position of a world point.
 struct Projected {

@@ -53,7 +53,7 @@ std::size_t nearestCorner(const PointsView& view, const TetSplat<double>& s,
 }
 
 std::vector<PassedTet> tetsOnRay(const Scene& scene, const View& view, const glm::dvec2& window) {
-    const PointsView seen(scene.placed, view);
+    const CellsView seen(scene.placed, view);
     const glm::ivec2 pixel(glm::floor(window));
     const double perDepth = lengthPerDepth(seen, window);
     std::vector<std::vector<PassedTet>> parts(kCellParts);

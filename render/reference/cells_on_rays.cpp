@@ -16,7 +16,7 @@ namespace {
 std::vector<double> tetDepthAt(const Scene& scene, const View& view,
                                std::span<const glm::ivec2> pixels, unsigned threads) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
-    const PointsView seen(scene.placed, view);
+    const CellsView seen(scene.placed, view);
     const PixelBins bins(pixels, view.size);
     std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
     forEachTetSplat(
@@ -36,7 +36,7 @@ std::vector<double> depthAt(const Scene& scene, const View& view,
                             RaysEnd end) {
     if (scene.placed.isMesh()) return tetDepthAt(scene, view, pixels, threads);
     constexpr double kNever = std::numeric_limits<double>::infinity();
-    const PointsView seen(scene.placed, view);
+    const CellsView seen(scene.placed, view);
     const CellWalk walk(scene.placed);
     const glm::uvec3 size = scene.cells->size();
     std::vector<IntervalCells> layers;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace render {
 namespace {
@@ -30,17 +31,21 @@ class PlacesOnLine {
     std::size_t count_ = 0;
 };
 
-// Where the slope changes its sign: the derivative is
-// 3 (d0 (1 - t)^2 + 2 d1 t (1 - t) + d2 t^2). Of the two forms of a root each is taken where
-// nothing cancels.
-void addTurns(const Cubic& f, PlacesOnLine& into) {
-    const double d0 = f[1] - f[0], d1 = f[2] - f[1], d2 = f[3] - f[2];
+// Where d0 (1 - t)^2 + 2 d1 t (1 - t) + d2 t^2 changes its sign. Of the two forms of a root each is
+// taken where nothing cancels.
+void addRoots(double d0, double d1, double d2, PlacesOnLine& into) {
     const double square = d1 * d1 - d0 * d2;
     if (!(square > 0)) return;
     const double half = d1 - d0;
     const double q = -(half + std::copysign(std::sqrt(square), half));
     for (const double t : {q / (d0 - 2 * d1 + d2), d0 / q})
         if (t > 0 && t < 1) into.add(t);
+}
+
+// Where the derivative is this: a third of it has the coefficients f[1] - f[0], f[2] - f[1] and
+// f[3] - f[2], and a constant has three that are the same.
+void addPlacesOfSlope(const Cubic& f, double slope, PlacesOnLine& into) {
+    addRoots(f[1] - f[0] - slope / 3, f[2] - f[1] - slope / 3, f[3] - f[2] - slope / 3, into);
 }
 
 // Between two places at which a monotonic stretch of f - level has different signs: Newton's steps,
@@ -74,6 +79,24 @@ void addCrossings(const Cubic& f, double level, const PlacesOnLine& turns, Place
     until(1, f[3]);
 }
 
+// use(from, to) of stretches on which f lies between these and has no end of them within,
+// ascending.
+template <typename Use>
+void forEachPartWithin(const Cubic& f, double lo, double hi, const Use& use) {
+    PlacesOnLine turns, ends;
+    addPlacesOfSlope(f, 0, turns);
+    addCrossings(f, lo, turns, ends);
+    addCrossings(f, hi, turns, ends);
+    double from = 0;
+    const auto until = [&](double to) {
+        const double middle = valueAt(f, 0.5 * (from + to));
+        if (to > from && middle >= lo && middle <= hi) use(from, to);
+        from = to;
+    };
+    for (const double end : ends) until(end);
+    until(1);
+}
+
 }  // namespace
 
 Cubic cubicOnLine(const std::array<double, 8>& corners, const glm::dvec3& a, const glm::dvec3& b) {
@@ -93,23 +116,27 @@ double valueAt(const Cubic& f, double t) {
 }
 
 void addPartsWithin(const Cubic& f, double lo, double hi, std::vector<LinePart>& into) {
-    PlacesOnLine turns, ends;
-    addTurns(f, turns);
-    addCrossings(f, lo, turns, ends);
-    addCrossings(f, hi, turns, ends);
-    double from = 0;
-    const auto until = [&](double to) {
-        const double middle = valueAt(f, 0.5 * (from + to));
-        if (to > from && middle >= lo && middle <= hi) {
-            if (!into.empty() && into.back().to == from)
-                into.back().to = to;
-            else
-                into.push_back({from, to});
-        }
-        from = to;
+    forEachPartWithin(f, lo, hi, [&](double from, double to) {
+        if (!into.empty() && into.back().to == from)
+            into.back().to = to;
+        else
+            into.push_back({from, to});
+    });
+}
+
+double passageWithin(const Cubic& f, double lo, double hi, double width, double whole) {
+    PlacesOnLine bends;
+    for (const double slope : {width * whole, -width * whole}) addPlacesOfSlope(f, slope, bends);
+    double sum = 0;
+    const auto add = [&](double from, double to) {
+        sum += std::max(whole * (to - from), std::abs(valueAt(f, to) - valueAt(f, from)) / width);
     };
-    for (const double end : ends) until(end);
-    until(1);
+    forEachPartWithin(f, lo, hi, [&](double from, double to) {
+        for (const double bend : bends)
+            if (bend > from && bend < to) add(std::exchange(from, bend), bend);
+        add(from, to);
+    });
+    return sum;
 }
 
 }  // namespace render

@@ -26,5 +26,9 @@ struct LinePart {
 // Adds the parts of the line on which lo <= cubic <= hi: disjoint, ascending. Ends may be infinite.
 // REQUIRES: coefficients near 1, whose differences neither overflow nor vanish.
 void addPartsWithin(const Cubic& cubic, double lo, double hi, std::vector<LinePart>& into);
+// The integral of max(whole, |cubic'| / width) over these parts: what opacity is of where a passage
+// through a range of that width counts (OpacityPer::Crossing), of a line that is so long. The width
+// may be infinite. REQUIRES: the same; width > 0.
+double passageWithin(const Cubic& cubic, double lo, double hi, double width, double whole);
 
 }  // namespace render

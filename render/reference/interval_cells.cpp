@@ -13,6 +13,9 @@ using timeseries::Interval;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr unsigned kAllOctants = 255;
+// Of a cell's change: a range of one value is crossed where the field passes it, and in none of two
+// cells more than in both.
+constexpr double kThinnestPassage = 1e-6;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double finiteOrNan(double v) { return std::isfinite(v) ? v : kNan; }
@@ -78,11 +81,24 @@ unsigned octantOf(const glm::dvec3& place) {
     return (place.x < 0.5 ? 0u : 1u) + (place.y < 0.5 ? 0u : 2u) + (place.z < 0.5 ? 0u : 4u);
 }
 
+// use(piece) for those of the line between two places that lie in one of these octants.
+template <typename Use>
+void forEachPieceOf(unsigned octants, const glm::dvec3& from, const glm::dvec3& to,
+                    const Use& use) {
+    if (octants == kAllOctants) return use(LinePart{0, 1});
+    const Octants pieces(from, to);
+    for (std::size_t i = 0; i < pieces.count; ++i) {
+        const LinePart piece{pieces.at[i], pieces.at[i + 1]};
+        if (octants >> octantOf(glm::mix(from, to, 0.5 * (piece.from + piece.to))) & 1) use(piece);
+    }
+}
+
 }  // namespace
 
 IntervalCells::IntervalCells(const timeseries::Field& field, const IndexBox& clip,
-                             std::vector<Interval<double>> ranges, unsigned threads, Look look)
-    : field_(field), clip_(clip), ranges_(std::move(ranges)) {
+                             std::vector<Interval<double>> ranges, unsigned threads, Look look,
+                             OpacityPer per)
+    : field_(field), clip_(clip), ranges_(std::move(ranges)), per_(per) {
     const auto points = field.grid->size();
     size_ = glm::uvec3(points[0], points[1], points[2]) + 1u;
     if (look == Look::WhenAsked) return;
@@ -161,7 +177,10 @@ IntervalCells::Kind IntervalCells::kindOf(const Corners& corners) const {
     for (const Interval<double>& range : ranges_) {
         if (corners.least >= range.lo && corners.greatest <= range.hi)
             return corners.octants == kAllOctants ? Kind::Whole : Kind::Part;
-        if (corners.least < range.hi && corners.greatest > range.lo) kind = Kind::Part;
+        // What only touches a range has no length in it, but may have half of a crossing.
+        if (per_ == OpacityPer::Crossing ? corners.least <= range.hi && corners.greatest >= range.lo
+                                         : corners.least < range.hi && corners.greatest > range.lo)
+            kind = Kind::Part;
     }
     return kind;
 }
@@ -173,7 +192,8 @@ const IntervalCells::Met& IntervalCells::meet(const glm::uvec3& cell, Lately& la
     if (met.number == number) return met;
     met.number = number;
     met.kind = kind(cell);
-    if (met.kind == Kind::Part) met.corners = scaledCornersOf(cell);
+    if (met.kind == Kind::Part || (met.kind == Kind::Whole && per_ == OpacityPer::Crossing))
+        met.corners = scaledCornersOf(cell);
     return met;
 }
 
@@ -195,13 +215,8 @@ void IntervalCells::addParts(const glm::uvec3& cell, const glm::dvec3& from, con
 
 void IntervalCells::addParts(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
                              std::vector<LinePart>& into) const {
-    if (corners.octants == kAllOctants) return addParts(corners, from, to, {0, 1}, into);
-    const Octants pieces(from, to);
-    for (std::size_t i = 0; i < pieces.count; ++i) {
-        const LinePart piece{pieces.at[i], pieces.at[i + 1]};
-        const glm::dvec3 middle = glm::mix(from, to, 0.5 * (piece.from + piece.to));
-        if (corners.octants >> octantOf(middle) & 1) addParts(corners, from, to, piece, into);
-    }
+    forEachPieceOf(corners.octants, from, to,
+                   [&](const LinePart& piece) { addParts(corners, from, to, piece, into); });
 }
 
 void IntervalCells::addParts(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
@@ -223,6 +238,41 @@ void IntervalCells::addParts(const Corners& corners, const glm::dvec3& from, con
     const double length = piece.to - piece.from;
     for (std::size_t i = before; i < into.size(); ++i)
         into[i] = {piece.from + length * into[i].from, piece.from + length * into[i].to};
+}
+
+double IntervalCells::passage(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
+                              double whole, Lately& lately) const {
+    const Met& met = meet(cell, lately);
+    if (met.kind == Kind::Nothing) return 0;
+    double sum = 0;
+    forEachPieceOf(met.corners.octants, from, to, [&](const LinePart& piece) {
+        sum += passage(met.corners, glm::mix(from, to, piece.from), glm::mix(from, to, piece.to),
+                       whole * (piece.to - piece.from));
+    });
+    return sum;
+}
+
+double IntervalCells::passage(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
+                              double whole) const {
+    if (corners.least == corners.greatest) return whole;
+    const OwnScale scale(corners.least, corners.greatest);
+    const Cubic cubic = cubicOnLine(corners.scaled, from, to);
+    double sum = 0;
+    for (const Interval<double>& range : ranges_) {
+        if (!(corners.least <= range.hi && corners.greatest >= range.lo)) continue;
+        double lo = scale(range.lo), hi = scale(range.hi);
+        const double width = std::max(hi - lo, kThinnestPassage);
+        if (hi - lo < width) {
+            const double middle = 0.5 * (lo + hi);
+            lo = middle - 0.5 * width;
+            hi = middle + 0.5 * width;
+        } else {  // as of parts
+            if (corners.least >= range.lo) lo = -kInfinity;
+            if (corners.greatest <= range.hi) hi = kInfinity;
+        }
+        sum += passageWithin(cubic, lo, hi, width, whole);
+    }
+    return sum;
 }
 
 IntervalCells::CellField IntervalCells::fieldIn(const glm::uvec3& cell) const {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "render/model/scene.h"
 #include "render/points/placed_points.h"
 #include "render/reference/cubic_on_line.h"
 #include "render/together.h"
@@ -28,7 +29,8 @@ class IntervalCells {
     // `ranges`: disjoint, as timeseries::betweenPoints gives them.
     IntervalCells(const timeseries::Field& field, const IndexBox& clip,
                   std::vector<timeseries::Interval<double>> ranges,
-                  unsigned threads = sharingThreads(), Look look = Look::Before);
+                  unsigned threads = sharingThreads(), Look look = Look::Before,
+                  OpacityPer per = OpacityPer::Length);
 
     enum class Kind : std::uint8_t { Nothing, Whole, Part };
     Kind kind(const glm::uvec3& cell) const {
@@ -40,6 +42,10 @@ class IntervalCells {
     Kind kind(const glm::uvec3& cell, Lately& lately) const;
     void addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
                   std::vector<LinePart>& into, Lately& lately) const;
+    // Of crossings, W of the line between two places of the cell, of which the length alone makes
+    // so much. REQUIRES: made for OpacityPer::Crossing.
+    double passage(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
+                   double whole, Lately& lately) const;
     // Adds the parts, of [0, 1], of the line between two places of the cell (in units of it) on
     // which the field is in the ranges. Disjoint.
     void addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
@@ -78,6 +84,8 @@ class IntervalCells {
     // Of a piece of the line, [0, 1].
     void addParts(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
                   const LinePart& piece, std::vector<LinePart>& into) const;
+    double passage(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
+                   double whole) const;
     Kind kindOf(const Corners& corners) const;
     // Of a cell that is a part.
     Corners scaledCornersOf(const glm::uvec3& cell) const;
@@ -88,6 +96,7 @@ class IntervalCells {
     const timeseries::Field& field_;
     IndexBox clip_;
     std::vector<timeseries::Interval<double>> ranges_;
+    OpacityPer per_;
     glm::uvec3 size_{0};  // cells
     std::vector<Kind> kinds_;
 };
@@ -95,7 +104,7 @@ class IntervalCells {
 struct IntervalCells::Met {
     std::size_t number = std::numeric_limits<std::size_t>::max();
     Kind kind = Kind::Nothing;
-    Corners corners{};  // where it is a part
+    Corners corners{};  // where it is a part, or of crossings
 };
 
 // Of one IntervalCells.

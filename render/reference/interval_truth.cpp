@@ -45,7 +45,7 @@ template <typename Pixel, typename Work, typename Sum>
 std::vector<Pixel> IntervalTruth::meanOfRays(const View& view, std::span<const glm::ivec2> pixels,
                                              const Sum& sum) const {
     constexpr std::size_t kAtOnce = 64;
-    const PixelRays rays = pixelRays(scene_.placed.inAxes(view));
+    const PixelRays rays = besideFaces(pixelRays(scene_.placed.inAxes(view)));
     const auto rayAt = [&](const glm::dvec2& at) {
         const glm::dvec3 along = rays.along(at - rays.centre);
         return Ray{rays.eye, along, rays.near,
@@ -75,12 +75,23 @@ IntervalTruth::IntervalTruth(const Scene& scene, const timeseries::Field& field,
     if (scene.placed.isMesh()) return;
     walk_.emplace(scene.placed);
     for (const Layer& layer : scene.layers)
-        layers_.emplace_back(field, scene.clip, layer.cells.ranges, threads_, look);
+        layers_.emplace_back(field, scene.clip, layer.cells.ranges, threads_, look,
+                             opacityPerOf(scene, layer));
 }
 
 double IntervalTruth::weight(const Ray& ray, std::size_t layer, WeightWork& work) const {
     std::vector<LinePart>& parts = work.parts;
     const IntervalCells& cells = layers_[layer];
+    if (opacityPerOf(scene_, scene_.layers[layer]) == OpacityPer::Crossing) {
+        double passed = 0;
+        (*walk_)(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
+            if (cells.kind(cell, work.lately) == Kind::Nothing) return;
+            passed += cells.passage(cell, walk_->inCell(cell, ray.eye + from * ray.along),
+                                    walk_->inCell(cell, ray.eye + to * ray.along),
+                                    (to - from) * ray.weight, work.lately);
+        });
+        return passed;
+    }
     double length = 0;
     (*walk_)(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
         const Kind kind = cells.kind(cell, work.lately);

@@ -29,15 +29,15 @@ class IntervalTruth {
                   IntervalCells::Look look = IntervalCells::Look::Before);
 
     // The plane W of a layer, as CellSum has it for Channels::Weight: the path length in its ranges
-    // in units of l, from the near plane on. [y][x], row 0 at the bottom. Not a bit depends on the
-    // threads.
+    // in units of l, or what the scene's opacityPer makes of it where it is drawn by cells, from
+    // the near plane on. [y][x], row 0 at the bottom. Not a bit depends on the threads.
     std::vector<double> weight(const View& view, std::size_t layer) const;
     // The plane W at these pixels alone.
     std::vector<double> weight(const View& view, std::size_t layer,
                                std::span<const glm::ivec2> pixels) const;
     // The light of all layers, ordered: emission and absorption along each ray, of optical depth
-    // opticalDepthPerWeight(opacity) a unit of W and of the colour that the field's value has
-    // there, lit as its gradient has it where the scene has light, which REQUIRES scene.cells.
+    // opticalDepthPerWeight(opacity) a unit of length l and of the colour that the field's value
+    // has there, lit as its gradient has it where the scene has light, which REQUIRES scene.cells.
     // Premultiplied, linear. [y][x], row 0 at the bottom.
     std::vector<glm::dvec4> light(const View& view) const;
 

@@ -31,7 +31,7 @@ std::vector<std::vector<PartInLayer>> partsOfMesh(const Scene& scene,
         std::size_t pixel;
         PartInLayer part;
     };
-    const PointsView seen(scene.placed, view);
+    const CellsView seen(scene.placed, view);
     std::vector<std::vector<OfPixel>> found(kCellParts);
     forEachTetSplat(
         scene, field, seen, PixelBins(pixels, view.size), threads, OpacityPer::Length,
@@ -69,7 +69,7 @@ PartInLayer partInLayer(const Scene& scene, std::size_t layer, std::uint32_t cel
 }
 
 CellRays::CellRays(const Scene& scene, const timeseries::Field& field, const View& view)
-    : scene_(scene), walk_(scene.placed), rays_(pixelRays(scene.placed.inAxes(view))) {
+    : scene_(scene), walk_(scene.placed), rays_(besideFaces(pixelRays(scene.placed.inAxes(view)))) {
     for (const Layer& layer : scene.layers)
         layers_.emplace_back(field, scene.clip, layer.cells.ranges, 1,
                              IntervalCells::Look::WhenAsked);

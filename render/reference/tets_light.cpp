@@ -64,7 +64,7 @@ std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& fi
 
 std::vector<glm::dvec4> meshLight(const Scene& scene, const timeseries::Field& field,
                                   const View& view, int raysAcross, unsigned threads) {
-    const PointsView seen(scene.placed, view);
+    const CellsView seen(scene.placed, view);
     const auto rays = static_cast<std::uint32_t>(raysAcross * raysAcross);
     std::vector<glm::dvec4> light(static_cast<std::size_t>(view.size.x) *
                                   static_cast<std::size_t>(view.size.y));

@@ -107,7 +107,7 @@ std::vector<double> addedUp(std::span<const std::vector<double>> parts) {
 std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& field, const View& view,
                                std::size_t layer, std::span<const glm::ivec2> pixels,
                                int raysAcross, unsigned threads) {
-    const PointsView seen(scene.placed, view);
+    const CellsView seen(scene.placed, view);
     const PixelBins bins(pixels, view.size);
     std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
     forEachTetBefore(
@@ -116,16 +116,19 @@ std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& fiel
             std::size_t pixel) {
             if (of != layer) return;
             double sum = 0;
+            const OpacityPer per = opacityPerOf(scene, scene.layers[layer]);
             for (const auto& range : scene.layers[layer].cells.ranges) {
-                const auto s = tetSplatAt<double>(
-                    seen, {tet.at, tet.values, range.lo, range.hi, OpacityPer::Length});
+                const auto s =
+                    tetSplatAt<double>(seen, {tet.at, tet.values, range.lo, range.hi, per});
                 if (!s.visible) continue;
+                const double perChange = s.extent > 0 ? s.perRange / s.extent : 0;
                 for (int j = 0; j < raysAcross; ++j)
                     for (int i = 0; i < raysAcross; ++i) {
                         const glm::dvec2 window = glm::dvec2(pixels[pixel]) +
                                                   (glm::dvec2(i, j) + 0.5) / double(raysAcross);
                         if (const auto in = partOnRay(seen, s, window))
-                            sum += (in->to - in->from) * lengthPerDepth(seen, window);
+                            sum += std::max((in->to - in->from) * lengthPerDepth(seen, window),
+                                            std::abs(in->end - in->begin) * perChange);
                     }
             }
             parts[part][pixel] += sum / (raysAcross * raysAcross);

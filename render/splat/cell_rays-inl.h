@@ -61,8 +61,11 @@ struct MeetLanes {
             front = hn::Min(front, hn::MulAdd(r.middle[a], per, way));
             back = hn::Min(back, hn::NegMulAdd(r.middle[a], per, way));
         }
-        r.length = hn::Add(front, back);
-        r.depth = hn::Mul(half, hn::Sub(back, front));
+        // Of rays beside the cell what may be computed with: they weigh nothing, but a colour that
+        // is no number would be one times that, too.
+        const V zero = hn::Zero(lanes);
+        r.length = hn::Max(hn::Add(front, back), zero);
+        r.depth = hn::IfThenElseZero(hn::Gt(r.length, zero), hn::Mul(half, hn::Sub(back, front)));
     }
 };
 

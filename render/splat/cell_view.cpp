@@ -44,7 +44,7 @@ CellMapPlace mapPlaceOf(const ByValue& style, double reference, double extent) {
 float floatPlace(double at) { return static_cast<float>(std::clamp(at, -1e30, 1e30)); }
 
 CellView::CellView(const Scene& scene, const View& view, Channels of, int rays)
-    : CellView(PointsView(scene.placed, finer(view, rays)), scene, view, of, rays) {}
+    : CellView(CellsView(scene.placed, finer(view, rays)), scene, view, of, rays) {}
 
 CellView::CellView(const PointsView& from, const Scene& scene, const View& view, Channels of,
                    int rays)

@@ -27,7 +27,7 @@ struct CellViewBlock {
 
 CellViewBlock blockOf(const Scene& scene, const View& view, Channels channels, const PixelBox& part,
                       int raysAcross) {
-    const PointsView seen(scene.placed, finer(view, raysAcross));
+    const CellsView seen(scene.placed, finer(view, raysAcross));
     const PixelRays& rays = seen.rays;
     const std::array<float, 6> metric = gradientMetric(scene.placed);
     const auto light = channels == Channels::Over ? static_cast<float>(scene.light) : 0.0f;

@@ -114,11 +114,12 @@ void SeenPoints::weigh(const Placed& placed, int y, PixelSpan x, const float* op
     const float centre = s.centre.x, weight = s.weight, depth = placed.windowDepth;
     opaqueRow += x.first;
     const int count = x.last - x.first;
+    const auto denominator = [&](float ox) { return d0 + (d1 + d2 * ox) * ox; };
+    const auto quotient = [&](float ox, float d) { return (n0 + (n1 + n2 * ox) * ox) / d; };
     for (int i = 0; i < count; ++i) {
         const float atX = left + static_cast<float>(i);
         const float ox = atX - centre;
-        const float d = d0 + (d1 + d2 * ox) * ox;
-        const float q = (n0 + (n1 + n2 * ox) * ox) / d;
+        const float d = denominator(ox), q = quotient(ox, d);
         const float t = q < 1 ? 1 - q : 0;
         const float u = t * t;
         const float w = weight * std::sqrt((ray0 + ray2 * atX * atX) / d) * u * u;
@@ -127,8 +128,9 @@ void SeenPoints::weigh(const Placed& placed, int y, PixelSpan x, const float* op
     if (!s.cut) return;
     for (int i = 0; i < count; ++i) {
         if (!(weights[i] > 0)) continue;
-        const glm::vec2 o(left + static_cast<float>(i) - centre, oy);
-        weights[i] *= s.insideShare(o, s.numerator(o) / s.denominator(o));
+        // The q that the weight is of: of another, rounded otherwise, it might be 1.
+        const float ox = left + static_cast<float>(i) - centre;
+        weights[i] *= s.insideShare({ox, oy}, quotient(ox, denominator(ox)));
     }
 }
 

@@ -43,6 +43,14 @@ TEST(FrameFiles, AreOneAStepUnderItsNumber) {
     EXPECT_EQ(frames.names(), "out/fire_03.png to fire_11.png");
 }
 
+// So that two runs' pictures of one series lie in order.
+TEST(FrameFiles, HaveAsManyDigitsAsTheSeriesLastStep) {
+    EXPECT_THAT(filesOf(FrameFiles("f.png", {}, {3, 7}, 31)), ElementsAre("f_03.png", "f_07.png"));
+    EXPECT_THAT(filesOf(FrameFiles("f.png", {}, {3, 7}, 10)), ElementsAre("f_3.png", "f_7.png"));
+    EXPECT_THAT(filesOf(FrameFiles("f.png", {}, {3, 7}, 101)),
+                ElementsAre("f_003.png", "f_007.png"));
+}
+
 TEST(FrameFiles, OneAloneHasTheNameAskedFor) {
     Explorer e;
     EXPECT_THAT(filesOf(FrameFiles("fire.exr", e, {41})), ElementsAre("fire.exr"));

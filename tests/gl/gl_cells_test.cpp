@@ -10,6 +10,7 @@
 #include "render/model/rays_across.h"
 #include "tests/bench/turbulence.h"
 #include "tests/support/gl_cell_planes.h"
+#include "tests/support/meshes.h"
 #include "tests/support/sampled_errors.h"
 
 namespace render {
@@ -53,6 +54,20 @@ TEST_F(GlCellsOf, RangesAtTheValuesOfPointsAreTheProcessors) {
         world.scene.opacityPer = OpacityPer::Crossing;
         SCOPED_TRACE(range);
         for (const View& view : {kOutside, kInside}) expectTheProcessors(world.scene, view, 1.5e-4);
+    }
+}
+
+// Whose pixels' rays run along faces between cells.
+TEST_F(GlCellsOf, PicturesAlongAnAxisAreTheProcessors) {
+    const auto one = [](const glm::dvec3&) { return 3.0; };
+    const auto places = [](double i, double j, double k) { return glm::dvec3(i, j, k); };
+    for (const auto& grid : {tests::cube(9), tests::curvilinear({9, 9, 9}, places)}) {
+        CellWorld world(sampled(grid, one), {"2:4"});
+        for (const glm::ivec2& size : {glm::ivec2(49, 31), glm::ivec2(48, 48)})
+            for (const glm::dvec3& from : {glm::dvec3(0, -1, 0), glm::dvec3(1, 1, 1)}) {
+                expectTheProcessors(world.scene, lookFrom(3.0 * from, size, 0.2), 1e-3);
+                expectTheProcessors(world.scene, lookFrom(1e3 * from, size, 6e-4), 1e-3);
+            }
     }
 }
 

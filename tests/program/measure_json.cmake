@@ -8,7 +8,7 @@ endif()
 
 expectMembers("${out}" file STRING variable STRING units STRING step NUMBER ranges STRING
               points NUMBER size ARRAY frames NUMBER rays NUMBER drawnBy STRING threads NUMBER truth STRING
-              views ARRAY modes ARRAY best OBJECT)
+              notes ARRAY views ARRAY modes ARRAY best OBJECT)
 string(JSON views LENGTH "${out}" views)
 string(JSON modes LENGTH "${out}" modes)
 if(NOT views EQUAL 2 OR NOT modes EQUAL 11)

@@ -298,6 +298,13 @@ TEST(InSitu, WhatCannotBeIsRefusedOnAllRanksAndTheFileStays) {
                 HasSubstr("expected a finite time, found inf"));
     EXPECT_THAT(refusal([](isochron_step& s) { s.axis[1].spacing = 0; }),
                 AllOf(HasSubstr("axis up"), HasSubstr("spacing that is not 0")));
+    EXPECT_THAT(refusal([](isochron_step& s) {
+                    s.axis[1].origin = 1e15;
+                    s.axis[1].spacing = 0.01;
+                }),
+                AllOf(HasSubstr("axis up"), HasSubstr("monotonic")));
+    EXPECT_THAT(refusal([](isochron_step& s) { s.axis[1].origin = s.axis[1].spacing = 1.5e308; }),
+                HasSubstr("not all finite"));
     EXPECT_THAT(refusal([](isochron_step& s) { s.axis[0].points = 0; }), HasSubstr("1 to 2^32"));
     EXPECT_THAT(refusal([](isochron_step& s) { s.axis[0].points = ~0ull; }),
                 HasSubstr("2^24 points along"));

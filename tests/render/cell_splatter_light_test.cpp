@@ -167,7 +167,7 @@ TEST(CellSplatter, PerCrossingEachPieceOfTheWayCountsForItsLengthOrItsChange) {
 
 // Each pixel's fragments of all cells, sorted by where its ray enters them, nearest first.
 double redByDepth(const CellWorld& world, const View& view, int x, int y) {
-    const PointsView seen(world.placed, view);
+    const CellsView seen(world.placed, view);
     const Ray ray = rayOf(world, view, {x + 0.5, y + 0.5});
     const glm::dvec2 at = glm::dvec2(x + 0.5, y + 0.5) - seen.rays.centre;
     struct Part {

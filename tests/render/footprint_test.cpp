@@ -8,6 +8,7 @@
 
 #include "render/reference/cpu_splatter.h"
 #include "render/reference/image_compare.h"
+#include "render/splat/row_splatter.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -173,6 +174,22 @@ double pathLength(const PointsView& seen, const glm::dvec2& pixel, double pixels
         to = std::min(to, std::max(one, other));
     }
     return std::max(0.0, to - from) * glm::length(seen.placed.worldFromAxes() * d);
+}
+
+// At the rim of a footprint, too, where rounding decides whether a ray meets it.
+TEST(SlimFootprint, EveryPixelHasANumber) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> any(-1, 1);
+    for (const std::size_t levels : {2u, 7u, 12u}) {
+        const UniformWorld world = thin(levels);
+        for (int n = 0; n < 30; ++n) {
+            const glm::dvec3 eye =
+                2.5 * glm::normalize(glm::dvec3(any(random), any(random), any(random)));
+            const View view = tests::lookFrom(eye, {200, 150}, 0.3);
+            for (const float w : sumRows(world.scene, Runs{}, view, Channels::Weight, 0, {}, 2))
+                ASSERT_TRUE(std::isfinite(w)) << levels << " levels from " << eye.x << ' ' << eye.y;
+        }
+    }
 }
 
 TEST(SlimFootprint, NothingIsDrawnBesideTheDomain) {

@@ -23,7 +23,7 @@ struct Fragment {
 };
 
 std::vector<std::vector<Fragment>> fragmentsOf(const Scene& scene, const View& view) {
-    const PointsView seen(scene.placed, view);
+    const CellsView seen(scene.placed, view);
     const PixelRays rays = pixelRays(view);
     const Layer& layer = scene.layers.front();
     std::vector<std::vector<Fragment>> all(std::size_t(view.size.x) * view.size.y);

@@ -268,7 +268,7 @@ TEST(MeshCells, NotABitDependsOnThreadsAndSlices) {
 glm::dvec4 lightOf(const Scene& scene, const View& view, const glm::ivec2& pixel) {
     constexpr int kSteps = 8;
     constexpr std::size_t kRays = 4;
-    const PointsView seen(scene.placed, view);
+    const CellsView seen(scene.placed, view);
     struct Passed {
         double depth, opticalDepth;
         glm::dvec3 color;

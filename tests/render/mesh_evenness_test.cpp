@@ -33,7 +33,7 @@ Evenness evennessOf(const World& world, double thickness, const glm::dvec2& lo,
     const glm::dvec2 centre(middle(axes[0]), middle(axes[1]));
     const View view = fromAbove(600);
     const auto w = weights(world, view);
-    const PixelRays rays = pixelRays(view);
+    const PixelRays rays = besideFaces(pixelRays(view));
     double sum = 0, squares = 0;
     int pixels = 0;
     for (int y = 0; y < view.size.y; ++y)

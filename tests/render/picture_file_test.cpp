@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 
+#include "render/image/image.h"
 #include "tests/support/files.h"
 
 namespace render {
@@ -48,6 +49,39 @@ TEST(PartialFile, WritesIntoWhatIsNoFile) {
     ::close(reader);
     ASSERT_GT(count, 0);
     EXPECT_EQ(std::string(text, static_cast<std::size_t>(count)), "through");
+}
+
+// A program that was ended leaves one; one that writes has it still.
+TEST(PartialFile, LeftoversAreNotInTheWay) {
+    const fs::path folder = tests::freshFolder(), to = folder / "picture.png";
+    for (int n = 0; n < 100; ++n)
+        tests::writeBytes(folder / ("picture.png.part" + std::to_string(n)), "left");
+    {
+        PartialFile one(to), other(to);
+        std::fputs("one", one.stream());
+        std::fputs("other", other.stream());
+        one.commit();
+        EXPECT_EQ(tests::readBytes(to), "one");
+        other.commit();
+        EXPECT_EQ(tests::readBytes(to), "other");
+    }
+    write(to, "after");
+    EXPECT_EQ(tests::readBytes(to), "after");
+    EXPECT_FALSE(fs::exists(folder / "picture.png.part0"));
+    EXPECT_FALSE(fs::exists(folder / "picture.png.part1"));
+}
+
+TEST(PartialFile, WhoMayReadAFileStaysAsItIs) {
+    const fs::path to = tests::freshFolder() / "own";
+    tests::writeBytes(to, "before");
+    fs::permissions(to, fs::perms::owner_read | fs::perms::owner_write);
+    write(to, "after");
+    EXPECT_EQ(fs::status(to).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    EXPECT_EQ(tests::readBytes(to), "after");
+    if (::geteuid() == 0) return;  // who may write everything
+    fs::permissions(to, fs::perms::owner_read);
+    EXPECT_THROW(write(to, "never"), ImageError);
+    EXPECT_EQ(tests::readBytes(to), "after");
 }
 
 }  // namespace

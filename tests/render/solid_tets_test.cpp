@@ -366,7 +366,7 @@ TEST(SolidTets, APlaceBetweenPointsIsSeenUnderTheCursor) {
         const auto picked = pickCell(world.scene, view, {10.5, 10.5});
         ASSERT_TRUE(picked);
         EXPECT_NEAR(*picked->between, 1.3, 2e-3);
-        const PixelRays rays = pixelRays(view);
+        const PixelRays rays = besideFaces(pixelRays(view));
         EXPECT_NEAR(rays.eye.x + picked->depth * rays.axis.x,
                     world.placed.axesFromGrid({1.3, 0, 0}).x, 1e-3);
         // The corner with the largest share is one of the cell's.

@@ -25,7 +25,7 @@ struct Ray {
     double length, near;
 };
 inline Ray rayOf(const CellWorld& world, const View& view, const glm::dvec2& pixel) {
-    const PixelRays rays = pixelRays(world.placed.inAxes(view));
+    const PixelRays rays = besideFaces(pixelRays(world.placed.inAxes(view)));
     const glm::dvec3 along = rays.along(pixel - rays.centre);
     return {rays.eye, along, glm::length(world.placed.worldFromAxes() * along), rays.near};
 }

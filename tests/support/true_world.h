@@ -69,7 +69,7 @@ struct Ray {
     double weight, near;     // W of that unit
 };
 inline Ray rayOf(const TrueWorld& world, const View& view, double x, double y) {
-    const PixelRays rays = pixelRays(world.placed.inAxes(view));
+    const PixelRays rays = besideFaces(pixelRays(world.placed.inAxes(view)));
     const glm::dvec3 along = rays.along(glm::dvec2(x, y) - rays.centre);
     return {rays.eye, along,
             glm::length(world.placed.worldFromAxes() * along) / world.placed.unitLength(),

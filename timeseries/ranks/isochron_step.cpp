@@ -37,6 +37,9 @@ StepAbout::Place placeOf(const isochron_axis& axis, int a) {
             fmt::format("axis {}: expected a finite origin and a spacing that is not 0, "
                         "found {} and {}",
                         name, axis.origin, axis.spacing));
+    } else if (const std::string flaw = flawOf(place.evenly(axis.points)); !flaw.empty()) {
+        throw Refused(fmt::format("axis {}: {}, of {} points from {} in steps of {}", name, flaw,
+                                  axis.points, axis.origin, axis.spacing));
     }
     return place;
 }

@@ -19,6 +19,12 @@ struct StepAbout {
         std::string name, units;
         double origin = 0, spacing = 1;   // of point i: origin + i spacing
         std::vector<double> coordinates;  // or where each one is, instead
+        std::vector<double> evenly(std::size_t points) const {
+            std::vector<double> at(points);
+            for (std::size_t i = 0; i < points; ++i)
+                at[i] = origin + static_cast<double>(i) * spacing;
+            return at;
+        }
     };
     std::string variable, units;
     double time = 0;

@@ -45,9 +45,7 @@ Axis axisOf(const StepFile& file, const StepAbout::Place& place, std::size_t poi
     if (points > kMostAlong)
         fail(fmt::format("expected at most {} points, found {}", kMostAlong, points));
     if (place.coordinates.empty()) {
-        axis.coordinates.reserve(points);
-        for (std::size_t i = 0; i < points; ++i)
-            axis.coordinates.push_back(place.origin + static_cast<double>(i) * place.spacing);
+        axis.coordinates = place.evenly(points);
     } else if (place.coordinates.size() != points) {
         fail(fmt::format("expected {} coordinates, found {}", points, place.coordinates.size()));
     }
