@@ -174,7 +174,7 @@ IndexOptions indexOptions(const IndexText& text) {
 
 // What `measure` takes beside the choices of a picture.
 struct MeasureText {
-    unsigned views = 3, frames = 5, rays = 3;
+    unsigned views = 3, frames = 5, rays = 5;
     std::vector<std::string> modes;
     DrawnByText by;
     bool json = false;
@@ -188,7 +188,7 @@ void addMeasure(CLI::App& app, MeasureText& into) {
     app.add_option("--frames", into.frames, "Timed of each view; 5 by default")
         ->check(CLI::Range(3, 1000));
     app.add_option("--rays", into.rays,
-                   "The truth is the mean of so many rays across and down a pixel; 3 by default")
+                   "The truth is the mean of so many rays across and down a pixel; 5 by default")
         ->check(CLI::Range(1, 32));
     app.add_option("--modes", into.modes,
                    "Ways to draw, by the names that the table has, separated by commas; all by "

@@ -54,7 +54,7 @@ struct MeasureOptions : CommonOptions {
     Explorer explorer;
     unsigned views = 3;
     unsigned frames = 5;             // timed, of each view
-    unsigned rays = 3;               // of the truth, across a pixel
+    unsigned rays = 5;               // of the truth, across a pixel
     std::vector<std::string> modes;  // as Mode::name() has them; none: all
     DrawnBy by;
     bool json = false;

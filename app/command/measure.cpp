@@ -58,9 +58,10 @@ struct Subject {
 
 std::string truthText(const MeasureOptions& options) {
     return fmt::format(
-        "the field interpolated between its points, exactly, mean of {0} x {0} rays a "
-        "pixel{1}",
+        "the {1} of the field interpolated between its points, exactly, mean of {0} x {0} rays a "
+        "pixel{2}",
         options.rays,
+        options.explorer.opacityPer == render::OpacityPer::Length ? "lengths" : "crossings",
         options.explorer.light == render::Light::Off ? "" : "; of lit cells lit as they are");
 }
 

@@ -96,9 +96,7 @@ class Bench {
     render::Scene sceneOf(const Mode& mode) const {
         Explorer e = allBy(mode.rung.model, explorer_);
         e.order = mode.order;
-        // What the truth is: lengths, and light that comes from within or as it is given.
-        e.opacityPer = render::OpacityPer::Length;
-        e.light = mode.light;
+        e.light = mode.light;  // from within, or as it is given
         render::Scene scene = makeScene(e, step_, placed_, e.play.tick);
         scene.stride = mode.rung.stride;
         scene.footprint = standingFor(scene.footprint, mode.rung.stride);
@@ -137,10 +135,9 @@ class Bench {
         }
     }
 
-    // As the modes are measured: lengths, and light that comes from within.
+    // As the modes are measured: light that comes from within.
     DepthErrors errorParts(std::span<const Rung> rungs, render::Order order) const {
         Explorer e = allBy(Model::Cells, explorer_);
-        e.opacityPer = render::OpacityPer::Length;
         e.light = render::Light::Off;
         e.order = order;
         return depthErrorsOf(e, step_, views_.front(), rungs, {.parts = Parts::All});

@@ -73,8 +73,9 @@ struct Measured {
 
 struct Measuring {
     unsigned views = 3;
-    unsigned frames = 5;                  // timed, of each view
-    unsigned raysAcross = 3;              // the truth's in a pixel
+    unsigned frames = 5;  // timed, of each view
+    // The truth's in a pixel; small cells are drawn by 3, whose places it is not to share.
+    unsigned raysAcross = 5;
     std::vector<std::string> modes = {};  // names of those to be measured; none: all
     // ByDevice and Gl need a current GL context.
     render::SplatterChoice splatter = render::SplatterChoice::Cpu;

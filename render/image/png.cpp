@@ -64,6 +64,8 @@ struct Reader {
         png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, fail, ignoreWarning);
         if (png != nullptr) info = png_create_info_struct(png);
         if (info == nullptr) throw std::bad_alloc();
+        // Text that is damaged is not left out, as if there were none.
+        png_set_crc_action(png, PNG_CRC_DEFAULT, PNG_CRC_ERROR_QUIT);
     }
     ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
     Reader(const Reader&) = delete;

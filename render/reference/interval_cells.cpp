@@ -252,12 +252,9 @@ double IntervalCells::passage(const glm::uvec3& cell, const glm::dvec3& from, co
     return sum;
 }
 
-double IntervalCells::passage(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
-                              double whole) const {
-    if (corners.least == corners.greatest) return whole;
+template <typename Use>
+void IntervalCells::forEachCut(const Corners& corners, const Use& use) const {
     const OwnScale scale(corners.least, corners.greatest);
-    const Cubic cubic = cubicOnLine(corners.scaled, from, to);
-    double sum = 0;
     for (const Interval<double>& range : ranges_) {
         if (!(corners.least <= range.hi && corners.greatest >= range.lo)) continue;
         double lo = scale(range.lo), hi = scale(range.hi);
@@ -270,9 +267,52 @@ double IntervalCells::passage(const Corners& corners, const glm::dvec3& from, co
             if (corners.least >= range.lo) lo = -kInfinity;
             if (corners.greatest <= range.hi) hi = kInfinity;
         }
-        sum += passageWithin(cubic, lo, hi, width, whole);
+        use(Cut{lo, hi, width});
     }
+}
+
+double IntervalCells::passage(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
+                              double whole) const {
+    if (corners.least == corners.greatest) return whole;
+    const Cubic cubic = cubicOnLine(corners.scaled, from, to);
+    double sum = 0;
+    forEachCut(corners, [&](const Cut& cut) {
+        sum += passageWithin(cubic, cut.lo, cut.hi, cut.width, whole);
+    });
     return sum;
+}
+
+void IntervalCells::addPassages(const glm::uvec3& cell, const glm::dvec3& from,
+                                const glm::dvec3& to, std::vector<Passage>& into) const {
+    std::vector<LinePart> parts;
+    if (per_ == OpacityPer::Length) {
+        if (kind(cell) == Kind::Whole) parts.push_back({0, 1});
+        if (kind(cell) == Kind::Part) addParts(cell, from, to, parts);
+        for (const LinePart& part : parts) into.push_back({part, kInfinity});
+        return;
+    }
+    const Corners corners = scaledCornersOf(cell);
+    if (kindOf(corners) == Kind::Nothing) return;
+    forEachPieceOf(corners.octants, from, to, [&](const LinePart& piece) {
+        if (corners.least == corners.greatest) return into.push_back({piece, kInfinity});
+        const Cubic cubic = cubicOnLine(corners.scaled, glm::mix(from, to, piece.from),
+                                        glm::mix(from, to, piece.to));
+        forEachCut(corners, [&](const Cut& cut) {
+            parts.clear();
+            addPartsWithin(cubic, cut.lo, cut.hi, parts);
+            for (const LinePart& part : parts)
+                into.push_back({{std::lerp(piece.from, piece.to, part.from),
+                                 std::lerp(piece.from, piece.to, part.to)},
+                                cut.width});
+        });
+    });
+}
+
+double IntervalCells::passageInside(const glm::uvec3& cell, const glm::dvec3& from,
+                                    const glm::dvec3& to, double whole, double width) const {
+    if (!std::isfinite(width)) return whole;
+    return passageWithin(cubicOnLine(scaledCornersOf(cell).scaled, from, to), -kInfinity, kInfinity,
+                         width, whole);
 }
 
 IntervalCells::CellField IntervalCells::fieldIn(const glm::uvec3& cell) const {

@@ -46,6 +46,16 @@ class IntervalCells {
     // so much. REQUIRES: made for OpacityPer::Crossing.
     double passage(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
                    double whole, Lately& lately) const;
+    // The parts of that line which lie in a range, and how wide that is in a measure of the cell's
+    // own, to ask what passage() has of a line in it; infinite where only lengths count.
+    struct Passage {
+        LinePart part;
+        double width;
+    };
+    void addPassages(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
+                     std::vector<Passage>& into) const;
+    double passageInside(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
+                         double whole, double width) const;
     // Adds the parts, of [0, 1], of the line between two places of the cell (in units of it) on
     // which the field is in the ranges. Disjoint.
     void addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
@@ -74,6 +84,12 @@ class IntervalCells {
         unsigned octants = 0;            // bit c: what is nearest to corner c is somewhere
         std::array<double, 8> scaled{};  // the values from 0 to 1, of a part
     };
+    struct Cut {
+        double lo, hi, width;
+    };
+    // use(cut) for the ranges that a cell's values reach or touch, on their own scale.
+    template <typename Use>
+    void forEachCut(const Corners& corners, const Use& use) const;
     struct Met;
     const Met& meet(const glm::uvec3& cell, Lately& lately) const;
     Corners cornersOf(const glm::uvec3& cell) const;

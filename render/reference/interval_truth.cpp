@@ -28,13 +28,22 @@ std::vector<glm::ivec2> allPixels(glm::ivec2 size) {
 struct LayerPart {
     LinePart part;
     std::size_t layer;
+    double width;  // IntervalCells::Passage
+};
+// A ray's way through a cell: places in it, and of W what its length makes.
+struct Through {
+    glm::uvec3 cell;
+    glm::dvec3 from, to, along;
+    double whole;
 };
 
 struct LightWork {
-    std::vector<LinePart> parts;
+    std::vector<IntervalCells::Passage> passages;
     std::vector<LayerPart> ofLayers;
     std::vector<double> ends;
-    std::vector<std::size_t> in;                   // layers, of a piece
+    std::vector<std::size_t> in;                   // layers, of a piece,
+    std::vector<double> widths;                    // the ranges of these,
+    std::vector<double> depths;                    // and optical depths
     std::vector<IntervalCells::CellField> fields;  // of these
     std::optional<LightOnRay> seen;
 };
@@ -118,18 +127,16 @@ std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer,
 
 std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
     if (!walk_) return meshLight(scene_, field_, view, raysAcross_, threads_);
-    const auto collect = [&](const glm::uvec3& cell, const glm::dvec3& a, const glm::dvec3& b,
-                             LightWork& work) {
+    const auto collect = [&](const Through& way, LightWork& work) {
         work.ofLayers.clear();
         work.ends.clear();
         for (std::size_t k = 0; k < layers_.size(); ++k) {
-            work.parts.clear();
-            if (layers_[k].kind(cell) == Kind::Whole) work.parts.push_back({0, 1});
-            if (layers_[k].kind(cell) == Kind::Part) layers_[k].addParts(cell, a, b, work.parts);
-            for (const LinePart& part : work.parts) {
-                work.ofLayers.push_back({part, k});
-                work.ends.push_back(part.from);
-                work.ends.push_back(part.to);
+            work.passages.clear();
+            layers_[k].addPassages(way.cell, way.from, way.to, work.passages);
+            for (const IntervalCells::Passage& each : work.passages) {
+                work.ofLayers.push_back({each.part, k, each.width});
+                work.ends.push_back(each.part.from);
+                work.ends.push_back(each.part.to);
             }
         }
         std::ranges::sort(work.ends);
@@ -144,26 +151,46 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
                        gradients * (field.changeAt(place) / walk_->sidesOf(cell)),
                        worldFromAxes * along, steepness);
     };
-    // All of a piece of the way, in which no layer begins or ends: of W a unit, in the cell.
-    const auto pass = [&](const Ray& ray, const glm::uvec3& cell, const glm::dvec3& a,
-                          const glm::dvec3& b, LinePart piece, double weight, LightWork& work) {
-        const double middle = 0.5 * (piece.from + piece.to);
-        work.in.clear();
-        work.fields.clear();
-        for (const auto& [part, k] : work.ofLayers)
-            if (middle >= part.from && middle <= part.to) {
-                work.in.push_back(k);
-                work.fields.push_back(layers_[k].fieldIn(cell));
-            }
+    // A piece of the way, in which no layer begins or ends, each as deep as it is there.
+    const auto passEven = [&](const Through& way, LinePart piece, LightWork& work) {
         const auto placeAt = [&](double share) {
-            return glm::mix(a, b, piece.from + (piece.to - piece.from) * share);
+            return glm::mix(way.from, way.to, piece.from + (piece.to - piece.from) * share);
         };
+        work.depths.clear();
+        for (std::size_t i = 0; i < work.in.size(); ++i) {
+            const std::size_t k = work.in[i];
+            work.depths.push_back(opticalDepthPerWeight(scene_.layers[k].style.opacity) *
+                                  layers_[k].passageInside(way.cell, placeAt(0), placeAt(1),
+                                                           way.whole * (piece.to - piece.from),
+                                                           work.widths[i]));
+        }
         work.seen->pass(
-            work.in, weight * (piece.to - piece.from),
+            work.in, work.depths,
             [&](std::size_t i, double share) { return work.fields[i].valueAt(placeAt(share)); },
             [&](std::size_t i, double share) {
-                return shadeAt(work.fields[i], cell, placeAt(share), ray.along);
+                return shadeAt(work.fields[i], way.cell, placeAt(share), way.along);
             });
+    };
+    const auto pass = [&](const Through& way, LinePart piece, LightWork& work) {
+        const double middle = 0.5 * (piece.from + piece.to);
+        work.in.clear();
+        work.widths.clear();
+        work.fields.clear();
+        bool isEven = true;
+        for (const auto& [part, k, width] : work.ofLayers)
+            if (middle >= part.from && middle <= part.to) {
+                work.in.push_back(k);
+                work.widths.push_back(width);
+                work.fields.push_back(layers_[k].fieldIn(way.cell));
+                isEven = isEven && !std::isfinite(width);
+            }
+        // What a crossing makes of a way changes along it.
+        const int steps = isEven ? 1 : LightOnRay::kSteps;
+        for (int i = 0; i < steps; ++i)
+            passEven(way,
+                     {std::lerp(piece.from, piece.to, double(i) / steps),
+                      std::lerp(piece.from, piece.to, double(i + 1) / steps)},
+                     work);
     };
     return meanOfRays<glm::dvec4, LightWork>(
         view, allPixels(view.size), [&](const Ray& ray, LightWork& work) {
@@ -176,13 +203,13 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
                              return layer.kind(cell) != Kind::Nothing;
                          };
                          if (seen.isOpaque() || std::ranges::none_of(layers_, isIn)) return;
-                         const glm::dvec3 a = walk_->inCell(cell, ray.eye + from * ray.along);
-                         const glm::dvec3 b = walk_->inCell(cell, ray.eye + to * ray.along);
-                         collect(cell, a, b, work);
+                         const Through way{cell, walk_->inCell(cell, ray.eye + from * ray.along),
+                                           walk_->inCell(cell, ray.eye + to * ray.along), ray.along,
+                                           (to - from) * ray.weight};
+                         collect(way, work);
                          for (std::size_t i = 1; i < work.ends.size(); ++i)
                              if (work.ends[i] > work.ends[i - 1])
-                                 pass(ray, cell, a, b, {work.ends[i - 1], work.ends[i]},
-                                      (to - from) * ray.weight, work);
+                                 pass(way, {work.ends[i - 1], work.ends[i]}, work);
                      });
             return seen.light();
         });

@@ -36,8 +36,8 @@ class IntervalTruth {
     std::vector<double> weight(const View& view, std::size_t layer,
                                std::span<const glm::ivec2> pixels) const;
     // The light of all layers, ordered: emission and absorption along each ray, of optical depth
-    // opticalDepthPerWeight(opacity) a unit of length l and of the colour that the field's value
-    // has there, lit as its gradient has it where the scene has light, which REQUIRES scene.cells.
+    // opticalDepthPerWeight(opacity) a unit of W and of the colour that the field's value has
+    // there, lit as its gradient has it where the scene has light, which REQUIRES scene.cells.
     // Premultiplied, linear. [y][x], row 0 at the bottom.
     std::vector<glm::dvec4> light(const View& view) const;
 

@@ -32,26 +32,27 @@ std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& fi
     std::vector<std::vector<PassedPart>> parts(kCellParts);
     const double steepness = steepnessOf(scene);
     const auto across = static_cast<std::uint32_t>(raysAcross);
-    forEachTetSplat(
-        scene, field, seen, PixelBins(pixels, size), threads, OpacityPer::Length,
-        [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron&,
-            const TetSplat<double>& s, std::size_t layer, std::size_t pixel) {
-            const double perWeight = opticalDepthPerWeight(scene.layers[layer].style.opacity);
-            for (std::uint32_t ray = 0; ray < across * across; ++ray) {
-                const glm::dvec2 window = windowOf(pixels[pixel], ray, raysAcross);
-                const auto in = partOnRay(seen, s, window);
-                if (!in) continue;
-                const double weight = (in->to - in->from) * lengthPerDepth(seen, window);
-                const glm::dvec3 way = seen.rays.along(window - seen.rays.centre);
-                parts[part].push_back(
-                    {static_cast<std::uint32_t>(pixel) * across * across + ray,
-                     {.layer = static_cast<std::uint32_t>(layer),
-                      .part = *in,
-                      .opticalDepth = perWeight * weight,
-                      .shade = shadeOf(scene.light, scene.lamp, s.gradient, way,
-                                       s.extent > 0 ? steepness / s.extent : 0)}});
-            }
-        });
+    forEachTetSplat(scene, field, seen, PixelBins(pixels, size), threads,
+                    scene.cells ? scene.opacityPer : OpacityPer::Length,
+                    [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron&,
+                        const TetSplat<double>& s, std::size_t layer, std::size_t pixel) {
+                        const double perWeight =
+                            opticalDepthPerWeight(scene.layers[layer].style.opacity);
+                        for (std::uint32_t ray = 0; ray < across * across; ++ray) {
+                            const glm::dvec2 window = windowOf(pixels[pixel], ray, raysAcross);
+                            const auto in = partOnRay(seen, s, window);
+                            if (!in) continue;
+                            const double weight = passageOf(s, *in, lengthPerDepth(seen, window));
+                            const glm::dvec3 way = seen.rays.along(window - seen.rays.centre);
+                            parts[part].push_back(
+                                {static_cast<std::uint32_t>(pixel) * across * across + ray,
+                                 {.layer = static_cast<std::uint32_t>(layer),
+                                  .part = *in,
+                                  .opticalDepth = perWeight * weight,
+                                  .shade = shadeOf(scene.light, scene.lamp, s.gradient, way,
+                                                   s.extent > 0 ? steepness / s.extent : 0)}});
+                        }
+                    });
     std::vector<PassedPart> all;
     for (const auto& some : parts) all.insert(all.end(), some.begin(), some.end());
     std::ranges::stable_sort(all, [](const PassedPart& a, const PassedPart& b) {

@@ -97,6 +97,12 @@ double lengthPerDepth(const PointsView& view, const glm::dvec2& window) {
     return view.rayLength / view.unitLength * std::sqrt(1 + glm::dot(slope, slope));
 }
 
+double passageOf(const TetSplat<double>& seen, const PartOnRay& part, double lengthPerDepth) {
+    const double crossed =
+        seen.extent > 0 ? std::abs(part.end - part.begin) / seen.extent * seen.perRange : 0;
+    return std::max((part.to - part.from) * lengthPerDepth, crossed);
+}
+
 std::vector<double> addedUp(std::span<const std::vector<double>> parts) {
     std::vector<double> sums(parts.front().size());
     for (const std::vector<double>& some : parts)
@@ -110,29 +116,27 @@ std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& fiel
     const CellsView seen(scene.placed, view);
     const PixelBins bins(pixels, view.size);
     std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
-    forEachTetBefore(
-        scene, field, seen, bins, threads,
-        [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron& tet, std::size_t of,
-            std::size_t pixel) {
-            if (of != layer) return;
-            double sum = 0;
-            const OpacityPer per = opacityPerOf(scene, scene.layers[layer]);
-            for (const auto& range : scene.layers[layer].cells.ranges) {
-                const auto s =
-                    tetSplatAt<double>(seen, {tet.at, tet.values, range.lo, range.hi, per});
-                if (!s.visible) continue;
-                const double perChange = s.extent > 0 ? s.perRange / s.extent : 0;
-                for (int j = 0; j < raysAcross; ++j)
-                    for (int i = 0; i < raysAcross; ++i) {
-                        const glm::dvec2 window = glm::dvec2(pixels[pixel]) +
-                                                  (glm::dvec2(i, j) + 0.5) / double(raysAcross);
-                        if (const auto in = partOnRay(seen, s, window))
-                            sum += std::max((in->to - in->from) * lengthPerDepth(seen, window),
-                                            std::abs(in->end - in->begin) * perChange);
-                    }
-            }
-            parts[part][pixel] += sum / (raysAcross * raysAcross);
-        });
+    forEachTetBefore(scene, field, seen, bins, threads,
+                     [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron& tet,
+                         std::size_t of, std::size_t pixel) {
+                         if (of != layer) return;
+                         double sum = 0;
+                         const OpacityPer per = opacityPerOf(scene, scene.layers[layer]);
+                         for (const auto& range : scene.layers[layer].cells.ranges) {
+                             const auto s = tetSplatAt<double>(
+                                 seen, {tet.at, tet.values, range.lo, range.hi, per});
+                             if (!s.visible) continue;
+                             for (int j = 0; j < raysAcross; ++j)
+                                 for (int i = 0; i < raysAcross; ++i) {
+                                     const glm::dvec2 window =
+                                         glm::dvec2(pixels[pixel]) +
+                                         (glm::dvec2(i, j) + 0.5) / double(raysAcross);
+                                     if (const auto in = partOnRay(seen, s, window))
+                                         sum += passageOf(s, *in, lengthPerDepth(seen, window));
+                                 }
+                         }
+                         parts[part][pixel] += sum / (raysAcross * raysAcross);
+                     });
     return addedUp(parts);
 }
 

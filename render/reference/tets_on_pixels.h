@@ -164,6 +164,8 @@ struct PartOnRay {
 // Of the ray at a window position.
 std::optional<PartOnRay> partOnRay(const PointsView& view, const TetSplat<double>& seen,
                                    const glm::dvec2& window);
+// W of it, of a length or a crossing as it was seen with.
+double passageOf(const TetSplat<double>& seen, const PartOnRay& part, double lengthPerDepth);
 // How long the ray there is for a unit of view depth, in units of l.
 double lengthPerDepth(const PointsView& view, const glm::dvec2& window);
 

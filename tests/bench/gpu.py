@@ -29,7 +29,8 @@ def measure(programs):
         if (trade.DATA / file).exists():
             for by in ("gl", "cpu"):
                 (KEPT / f"{name}.{by}.json").write_text(said(
-                    isochron, "measure", trade.DATA / file, *options, "--splatter", by, "--device", "gpu",
+                    isochron, "measure", trade.DATA / file, *options, "--opacity-per", "length", "--splatter", by,
+                    "--device", "gpu",
                     "--size", "600x600", "--modes", "points,cells,lit cells", "--json"))
     # A window needs GLX of the GPU's driver on the X server that this starts.
     window = pathlib.Path(programs[0] if programs else ROOT / "build/release/tests/ui") / "ui_bench"

@@ -41,8 +41,8 @@ def measure(name):
     print(f"{name} ...", file=sys.stderr)
     about = {"commit": commit(PAGE, PLOTS), "date": datetime.date.today().isoformat(),
              "load": os.getloadavg()[0]}
-    figures = json.loads(said(PROGRAM, "measure", DATA / file, *options, "--splatter", "cpu", "--size", "600x600", "--json",
-                              "--svg", ROOT / PLOTS / f"{name}.svg"))
+    figures = json.loads(said(PROGRAM, "measure", DATA / file, *options, "--opacity-per", "length", "--splatter", "cpu",
+                              "--size", "600x600", "--json", "--svg", ROOT / PLOTS / f"{name}.svg"))
     KEPT.mkdir(parents=True, exist_ok=True)
     (KEPT / f"{name}.json").write_text(json.dumps({"about": about, "figures": figures}, indent=1))
 

@@ -118,21 +118,26 @@ timeseries::SortedStep waves(std::shared_ptr<const Grid> grid) {
     });
 }
 
-double errorOf(const CellWorld& world, const View& view, int raysAcross = 4) {
-    const IntervalTruth truth(world.scene, world.scene.cells->field(), raysAcross);
+// Of what is drawn, against the truth of either.
+double errorOf(const CellWorld& world, const View& view, OpacityPer per = OpacityPer::Crossing) {
+    Scene scene = world.scene;
+    scene.opacityPer = per;
+    const IntervalTruth truth(scene, scene.cells->field(), 4);
     return compareScalars(std::span<const float>(tests::drawn(world.scene, view)),
                           truth.weight(view, 0))
         .relativeL2;
 }
 
-// What is drawn of thin ranges is nearer to their crossings than to their lengths, by far; of wide
-// ranges both are one.
+// Of thin ranges, whose lengths are far less than their crossings, and of wide ones, of which both
+// are one.
 TEST(CrossingTruth, IsWhatCellsAreDrawnAs) {
     const View view = tests::lookFrom({1.2, -2.5, 1}, {160, 120});
     for (const char* range : {"0.2:0.9", "0.2:0.25", "0.2:0.201", "0.2"}) {
         CellWorld world(waves(tests::cube(24)), {range});
         world.scene.opacityPer = OpacityPer::Crossing;
         EXPECT_LT(errorOf(world, view), 0.06) << range;
+        const bool isWide = range == std::string_view("0.2:0.9");
+        EXPECT_EQ(errorOf(world, view, OpacityPer::Length) < 0.5, isWide) << range;
     }
 }
 
@@ -149,6 +154,54 @@ TEST(CrossingTruth, OfAMeshIsWhatItsCellsAreDrawnAs) {
         world.scene.opacityPer = OpacityPer::Crossing;
         EXPECT_LT(errorOf(world, view), 0.12) << range;  // one ray a pixel
     }
+}
+
+// One colour: what is taken of the light behind is 1 - e^-tau, however a crossing makes it deep.
+TEST(CrossingTruth, LightIsAbsorbedByWhatIsCrossed) {
+    constexpr double kOpacity = 0.4;
+    const View view = tests::lookFrom({1.2, -2.5, 1}, {40, 30});
+    const auto wave = [](const glm::dvec3& p) {
+        return 0.5 + 0.5 * std::sin(p.x + 0.4) * std::cos(0.9 * p.y - p.z);
+    };
+    const auto places = [](double i, double j, double k) { return glm::dvec3(i, j, k); };
+    for (const auto& grid : {tests::cube(7), tests::curvilinear({7, 7, 7}, places)})
+        for (const char* range : {"0.2:0.9", "0.2:0.25", "0.2"}) {
+            CellWorld world(tests::stepOf(grid,
+                                          [&](std::size_t i) {
+                                              return wave(glm::dvec3(i % 7, i / 7 % 7, i / 49));
+                                          }),
+                            {range}, kOpacity);
+            world.scene.opacityPer = OpacityPer::Crossing;
+            world.scene.order = Order::BackToFront;
+            world.scene.layers[0].style.color = Constant{glm::dvec3(0.2, 0.5, 0.9)};
+            const IntervalTruth truth(world.scene, world.scene.cells->field(), 1);
+            const std::vector<double> w = truth.weight(view, 0);
+            const std::vector<glm::dvec4> light = truth.light(view);
+            ASSERT_GT(std::ranges::max(w), 0.9) << range;
+            for (std::size_t i = 0; i < w.size(); ++i) {
+                const double alpha = 1 - std::pow(1 - kOpacity, w[i]);
+                ASSERT_NEAR(light[i].a, alpha, 1e-5) << range << ' ' << i;
+                ASSERT_NEAR(light[i].g, 0.5 * alpha, 1e-5) << range << ' ' << i;
+            }
+        }
+}
+
+// Two thin shells of many colours, one before the other.
+TEST(CrossingTruth, LightOfThinShellsIsWhatCellsShow) {
+    CellWorld world(waves(tests::cube(24)), {"0.2:0.25", "-0.55:-0.5"}, 0.7);
+    world.scene.opacityPer = OpacityPer::Crossing;
+    world.scene.order = Order::BackToFront;
+    world.scene.layers[0].style.color = ByValue{ColorMap(), 0.2, 0.25};
+    const View view = tests::lookFrom({1.2, -2.5, 1}, {160, 120});
+    const std::vector<float> shown = tests::drawn(world.scene, view, Channels::Over);
+    const auto light = IntervalTruth(world.scene, world.scene.cells->field(), 3).light(view);
+    double off = 0, all = 0;
+    for (std::size_t i = 0; i < light.size(); ++i)
+        for (int c = 0; c < 4; ++c) {
+            off += std::pow(double(shown[4 * i + std::size_t(c)]) - light[i][c], 2);
+            all += light[i][c] * light[i][c];
+        }
+    EXPECT_LT(std::sqrt(off / all), 0.08);  // one ray a pixel
 }
 
 // Layers that are drawn by points have lengths.

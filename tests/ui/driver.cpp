@@ -6,6 +6,7 @@
 #include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>
 #include <X11/keysym.h>
+#include <malloc.h>
 
 #include "tests/ui/waiting.h"
 
@@ -46,6 +47,14 @@ std::vector<std::string> inWindow(std::vector<std::string> arguments) {
     return arguments;
 }
 
+// Shots come and go, a few megabytes each: given back and taken anew, page by page, they would take
+// a sixth of a test's time.
+void keepMemory() {
+    constexpr int kBytes = 1 << 28;
+    mallopt(M_MMAP_THRESHOLD, kBytes);
+    mallopt(M_TRIM_THRESHOLD, kBytes);
+}
+
 }  // namespace
 
 Driver::Driver(const Screen& screen, const std::filesystem::path& folder,
@@ -56,6 +65,7 @@ Driver::Driver(const Screen& screen, const std::filesystem::path& folder,
                 .arguments = inWindow(std::move(arguments)),
                 .folder = folder,
                 .environment = withScreen(std::move(environment), screen, folder)}) {
+    keepMemory();
     waitFor("a window appears", [&] {
         const auto found = screen_.windowOf(process_.id());
         window_ = found.value_or(0);
