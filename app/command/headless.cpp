@@ -100,7 +100,7 @@ MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSourc
         const FrameAt frame = frames[i];
         try {
             const auto step = source.get(frame.step, frames.front().step);
-            if (!hasDepthError(*step)) continue;
+            if (!hasDepthError(*step)) return error;
             const DepthErrors errors = errorOf(e, frame, *step);
             const auto depth = errors.of({modelOf(e)});
             if (!depth || std::isnan(*depth)) continue;

@@ -132,6 +132,7 @@ void FileActions::save(const fs::path& file, const std::optional<double>& error)
         if (error && std::isfinite(*error)) session[kSessionErrorKey] = *error;
         writeWhole(file, jsonText(session, 2) + "\n");
         exploration_.tell("Saved " + file.string());
+        exploration_.expectSameFiles();
     });
 }
 
@@ -145,6 +146,7 @@ void FileActions::screenshot(const std::optional<double>& error) {
         const bool isAsAsked = shown->explorer.map == exploration_.explorer().map;
         exploration_.tell((isAsAsked ? "Screenshot: " : "Screenshot, lying flat: ") +
                           fs::absolute(file).string());
+        exploration_.expectSameFiles();
     });
 }
 
@@ -156,7 +158,10 @@ void FileActions::copyCommandLine() {
     const std::vector<std::string> arguments =
         renderArguments(picture, "picture.png", fs::current_path());
     copy_(callOfProgram() + " " + shellText(arguments));
-    exploration_.tell("Copied: the command line that makes this picture");
+    telling(exploration_, [&] {
+        exploration_.expectSameFiles();
+        exploration_.tell("Copied: the command line that makes this picture");
+    });
 }
 
 void FileActions::exportTo(const fs::path& output) {
@@ -164,6 +169,7 @@ void FileActions::exportTo(const fs::path& output) {
     if (!shown) return;
     if (export_) return exploration_.tell("One export at a time: cancel the one that runs", true);
     telling(exploration_, [&] {
+        exploration_.expectSameFiles();
         const Explorer animation = animationOf(exploration_.explorer(), shown->dataset);
         export_.emplace(animation, FrameFiles(fs::absolute(output), animation,
                                               stepsOf(shown->dataset, *animation.steps),

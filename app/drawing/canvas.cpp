@@ -230,8 +230,11 @@ void Canvas::State::tell(CanvasReport& report, const render::Scene& scene) const
     report.stride = rung.stride;
     report.across = rung.across;
     report.drawn = drawnSplats(scene.layers, rung.stride);
-    if (scene.cells && rung.model == Model::Cells)
+    if (scene.cells && rung.model == Model::Cells) {
         report.cells = cellCount(scene, render::Channels::Over, 0);
+        for (const render::Layer& layer : scene.layers)
+            if (layer.byPoints) report.besideCells += render::pointCount(layer);
+    }
     report.lacksCells = lacksCells(scene);
     report.whole = rung.isWhole() && report.uploaded == 1 && !report.lacksCells;
 }

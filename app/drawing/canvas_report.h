@@ -14,7 +14,8 @@ namespace app {
 struct CanvasReport {
     std::size_t step = 0;                     // the step on the screen
     std::uint64_t drawn = 0, selected = 0;    // splats an eye, of all layers; points they stand for
-    std::optional<std::uint64_t> cells = {};  // likewise, where they are drawn instead
+    std::optional<std::uint64_t> cells = {};  // likewise, where they are drawn instead,
+    std::uint64_t besideCells = 0;            // and points of layers that have none of them
     // Of that step, under the choices on the screen; none before the first picture.
     std::optional<PointCounts> counts = {};
     std::uint32_t stride = 1;  // one of so many points stands for its neighbours

@@ -168,6 +168,10 @@ void Exploration::keepPlayed() {
     history_.edit(std::move(now));
 }
 
+void Exploration::expectSameFiles() {
+    if (open_) open_->files.expectSame();
+}
+
 void Exploration::seek(std::size_t step) {
     if (!open_) return;
     Explorer next = explorer();

@@ -109,6 +109,10 @@ class Exploration {
     const PointCounts* counts() const;
     const timeseries::Series* series() const;  // of the dataset shown; null before the first
 
+    // Throws FileError where one of few files is no longer what it was when it was opened: who
+    // opens it anew would read something else than what is shown.
+    void expectSameFiles();
+
     // Sentences to show, oldest first, each with a number that ascends; the front end forgets them.
     struct Message {
         std::uint64_t number;

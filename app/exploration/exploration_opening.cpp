@@ -1,4 +1,6 @@
 // How other data become what is shown: opened beside it, and taken over with their first step.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <stdexcept>
@@ -94,6 +96,9 @@ void Exploration::takeOpened() {
     const StepChoice asked =
         wish.steps.value_or(StepChoice{dataset.defaultStep, dataset.defaultStep});
     const std::size_t first = std::min(asked.first, last);
+    if (asked.first > last)
+        tell(fmt::format("There is no step {}: the last one, {}, is shown", asked.first, last),
+             true);
     // Several steps are what is to be played.
     timeseries::CursorSettings& play = wish.play.time;
     if (asked.last != asked.first && play.first == 0 && play.last >= last && play.stride == 1) {

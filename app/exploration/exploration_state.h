@@ -8,17 +8,26 @@
 
 #include "app/exploration/exploration.h"
 #include "app/exploration/globe_maker.h"
+#include "timeseries/series/opened_files.h"
 
 namespace app {
 
 struct Exploration::Open {
     Open(OpenDataset opened, const Explorer& wish, const Settings& settings, const Wake& wake)
         : dataset(opened),
+          files(fewOf(opened)),
           steps(opened, wish.keep.value_or(timeseries::RangeSet::everything()),
                 settings.budgetBytes, wake.callable()),
           globes(wake.callable()) {}
 
+    // A series of many is not looked through: its steps' files are when they are read.
+    static std::span<const std::filesystem::path> fewOf(const OpenDataset& opened) {
+        const auto all = opened.reader->files();
+        return all.first(all.size() <= timeseries::OpenedFiles::kFew ? all.size() : 0);
+    }
+
     Dataset dataset;
+    timeseries::OpenedFiles files;
     LiveSteps steps;
     std::size_t step = 0;  // shown
     std::shared_ptr<const timeseries::SortedStep> sorted;

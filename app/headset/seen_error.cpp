@@ -54,7 +54,7 @@ std::optional<double> SeenError::of(const Explorer& explorer) const {
 std::string SeenError::text(const Rung& drawn) const {
     const RungError* const error = errors_ ? errors_->find(drawn) : nullptr;
     if (error == nullptr) return "";
-    const std::string depth = depthErrorText(error->depth);
+    const std::string depth = depthErrorText(error->depth, boundOf(*error, drawn));
     return depth.empty() ? "" : depth + lightErrorText(*error, errors_->ordering);
 }
 

@@ -16,8 +16,12 @@ std::string drawnText(const DrawnCounts& drawn) {
                        withCommas(drawn.splats));
 }
 
-std::string cellsText(std::uint64_t cells) {
-    return fmt::format("{} cell{} drawn", withCommas(cells), cells == 1 ? "" : "s");
+std::string cellsText(std::uint64_t cells, std::uint64_t points) {
+    const auto several = [](std::uint64_t count, const char* what) {
+        return fmt::format("{} {}{}", withCommas(count), what, count == 1 ? "" : "s");
+    };
+    return several(cells, "cell") + (points > 0 ? " and " + several(points, "point") : "") +
+           " drawn";
 }
 
 }  // namespace app::panels

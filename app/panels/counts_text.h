@@ -13,7 +13,7 @@ struct DrawnCounts {
 };
 // "100 points drawn", "100 points drawn, as 120 splats", "30 of 120 splats drawn".
 std::string drawnText(const DrawnCounts& drawn);
-// "1 cell drawn", "3,321 cells drawn".
-std::string cellsText(std::uint64_t cells);
+// "1 cell drawn", "3,321 cells drawn", "3,321 cells and 20 points drawn".
+std::string cellsText(std::uint64_t cells, std::uint64_t points = 0);
 
 }  // namespace app::panels

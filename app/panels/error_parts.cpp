@@ -1,5 +1,7 @@
 #include "app/panels/error_parts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/panels/figures.h"
@@ -51,13 +53,17 @@ std::vector<ErrorLine> errorPartLines(const Performance& p) {
         return {{"", "", "This picture's error is not known: " + p.errors->whyNone + "."}};
     if (error == nullptr) return {{"", "", "This picture's error is not known yet."}};
     std::vector<ErrorLine> lines{
-        {"whole", shareText(error->depth), "of optical depth, against the field between points"}};
+        {"whole", shareText(error->depth, boundOf(*error, p.drawn())),
+         fmt::format("of optical depth, against the field between points{}",
+                     p.isErrorOfAnother ? ", of the picture before" : "")}};
     if (error->parts) {
-        for (PartLine& part : partLines(*error, p.errors->ordering))
+        for (PartLine& part : partLines(*error, p.errors->ordering, p.drawn()))
             lines.push_back({part.name, part.size, part.what});
     } else {
         for (const char* name : {"model", "subset", "pixels", "order"})
-            lines.push_back({name, "…", "being worked out"});
+            lines.push_back(
+                {name, "…",
+                 p.isErrorOfAnother ? "known once the picture rests" : "being worked out"});
     }
     return lines;
 }

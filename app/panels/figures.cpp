@@ -38,7 +38,7 @@ std::string limitText(const Performance& p) {
 std::string errorFigure(const Performance& p) {
     const RungError* const error = p.told();
     if (error == nullptr) return "";
-    std::string depth = depthErrorText(error->depth);
+    std::string depth = depthErrorText(error->depth, boundOf(*error, p.drawn()));
     if (p.isErrorOfAnother && !depth.empty())
         depth.insert(std::string_view("error").size(), " was");
     return depth.empty() ? "" : depth + lightErrorText(*error, p.errors->ordering);
@@ -59,7 +59,7 @@ std::vector<std::string> figuresOf(const Performance& p, const timeseries::Serie
     const char* clipping = counts.inClipBox ? ", before clipping" : "";
     // Of splats and cells nobody knows which are in the box; where all are drawn, its points are.
     if (r.cells)
-        lines.push_back(cellsText(*r.cells) + clipping);
+        lines.push_back(cellsText(*r.cells, r.besideCells) + clipping);
     else if (counts.inClipBox && r.whole)
         lines.push_back(withCommas(counts.selected) + " points drawn");
     else
@@ -106,6 +106,10 @@ std::vector<std::string> errorLines(const Performance& p) {
     for (const RungError& error : p.errors->rungs)
         lines.push_back(fmt::format("{}  {}{}", shareText(error.depth), rungText(error.rung),
                                     error.rung == p.drawn() ? ", as drawn" : ""));
+    if (const RungError* const least = p.told();
+        least != nullptr && boundOf(*least, p.drawn()) == Bound::Least)
+        lines.push_back(fmt::format("{}  {}, as drawn", shareText(least->depth, Bound::Least),
+                                    rungText(p.drawn())));
     return lines;
 }
 

@@ -13,10 +13,14 @@ constexpr double kLeastTold = 0.001;
 constexpr double kNothing = 1e-6;
 
 std::string orderReason(Ordering ordering) {
-    return ordering == Ordering::Mixed ? "colours mixed" : "layers within a cell";
+    return ordering == Ordering::Mixed ? "colours mixed" : "colours within a cell";
 }
 
 }  // namespace
+
+Bound boundOf(const RungError& known, const Rung& drawn) {
+    return drawn.stride > known.rung.stride ? Bound::Least : Bound::About;
+}
 
 std::string rungText(const Rung& rung) {
     const std::string pixels = rung.across == 1 ? "" : ", coarse pixels";
@@ -24,20 +28,22 @@ std::string rungText(const Rung& rung) {
     return (rung.stride == 1 ? "points" : fmt::format("1 of {} points", rung.stride)) + pixels;
 }
 
-std::string shareText(double error) {
+std::string shareText(double error, Bound bound) {
     if (!std::isfinite(error)) return "not known";  // beside a truth that is nothing
     constexpr double kMostTold = 10;                // beside a truth that is nearly nothing
     if (error > kMostTold) return "above 1000 %";
     const double percent = 100 * error;
+    if (bound == Bound::Least)
+        return fmt::format("above {:.{}f} %", percent, error < kLeastTold || percent >= 1 ? 0 : 1);
     if (error < kLeastTold) return "below 0.1 %";
     return fmt::format("{:.{}f} %", percent, percent < 1 ? 1 : 0);
 }
 
-std::string depthErrorText(double error) {
+std::string depthErrorText(double error, Bound bound) {
     if (!std::isfinite(error)) return "";
-    const std::string share = shareText(error);
-    return (share.starts_with("below") || share.starts_with("above") ? "error " : "error about ") +
-           share;
+    const std::string share = shareText(error, bound);
+    const bool isAbout = !share.starts_with("below") && !share.starts_with("above");
+    return (isAbout ? "error about " : "error ") + share;
 }
 
 std::string lightErrorText(const RungError& error, Ordering ordering) {
@@ -45,22 +51,28 @@ std::string lightErrorText(const RungError& error, Ordering ordering) {
     return fmt::format(", light {} ({})", shareText(error.order), orderReason(ordering));
 }
 
-std::vector<PartLine> partLines(const RungError& error, Ordering ordering) {
+std::vector<PartLine> partLines(const RungError& error, Ordering ordering,
+                                const std::optional<Rung>& asDrawn) {
     const ErrorParts& parts = *error.parts;
+    const Rung drawn = asDrawn.value_or(error.rung);
     const auto line = [](const char* name, double size, std::string some, std::string none) {
         return size < kNothing ? PartLine{name, "none", std::move(none)}
                                : PartLine{name, shareText(size), std::move(some)};
     };
     const bool cells = error.rung.model == Model::Cells;
-    const std::string model =
-        fmt::format("{} in place of the field between points", cells ? "cells" : "points");
+    const std::string model = fmt::format("{} in place of the field between points",
+                                          cells && std::isnan(error.order) ? "cells and points"
+                                          : cells                          ? "cells"
+                                                                           : "points");
     std::vector<PartLine> lines{
         line("model", parts.model, model, "exact here"),
-        line("subset", parts.subset, rungText(error.rung) + " for all of them", "all is drawn"),
+        line("subset", parts.subset, rungText(drawn) + " for all of them", "all is drawn"),
         line("pixels", parts.pixels,
              error.rung.across == 1 ? "few rays a pixel instead of its mean"
                                     : "coarse pixels, and few rays in each",
              "as many rays as the truth")};
+    if (boundOf(error, drawn) == Bound::Least)
+        lines[1].size = shareText(parts.subset, Bound::Least);
     if (std::isnan(error.order)) {
         lines.push_back({"order", "not known", "points among cells"});
         return lines;
@@ -74,7 +86,7 @@ std::vector<PartLine> partLines(const RungError& error, Ordering ordering) {
                                  "no colours meet on a ray"));
             break;
         case Ordering::ByDepth:
-            lines.push_back(line("order", error.order, "of light: layers within a cell",
+            lines.push_back(line("order", error.order, "of light: colours within a cell",
                                  cells ? "cells by depth" : "points by depth"));
             break;
     }

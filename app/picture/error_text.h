@@ -1,6 +1,7 @@
 // What is said of a picture's error (depth_error.h).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,13 @@ namespace app {
 
 // "cells", "points", "1 of 8 points".
 std::string rungText(const Rung& rung);
-// "0.4 %", "12 %", "below 0.1 %", "above 1000 %".
-std::string shareText(double error);
+// Of what draws fewer points than anything whose error is known, that error is the least.
+enum class Bound { About, Least };
+Bound boundOf(const RungError& known, const Rung& drawn);
+// "0.4 %", "12 %", "below 0.1 %", "above 1000 %"; "above 12 %".
+std::string shareText(double error, Bound bound = Bound::About);
 // "error about 0.4 %"; "" where it is none that can be told.
-std::string depthErrorText(double error);
+std::string depthErrorText(double error, Bound bound = Bound::About);
 // ", light 8 % (colours mixed)" where order costs light that shows, else "".
 std::string lightErrorText(const RungError& error, Ordering ordering);
 
@@ -22,7 +26,8 @@ struct PartLine {
     std::string name, size, what;
 };
 // Model, subset, pixels, then order: "none" of what is nothing, with the reason. REQUIRES:
-// error.parts.
-std::vector<PartLine> partLines(const RungError& error, Ordering ordering);
+// error.parts. `drawn`: what draws fewer points than that, where something does.
+std::vector<PartLine> partLines(const RungError& error, Ordering ordering,
+                                const std::optional<Rung>& drawn = {});
 
 }  // namespace app

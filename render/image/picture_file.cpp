@@ -42,12 +42,13 @@ PartialFile::PartialFile(std::filesystem::path destination) : destination_(std::
         throw ImageError(destination_, "cannot be written: " + lastError());
     const int descriptor = openPartial();
     if (descriptor < 0) throw ImageError(destination_, "cannot be created: " + lastError());
-    if (replaces) (void)::fchmod(descriptor, there.st_mode & 07777);
+    if (replaces) (void)::fchmod(descriptor, there.st_mode & 0777);
     locked_ = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
     stream_.reset(::fdopen(descriptor, "wb"));
     if (stream_) return;
     const std::string why = lastError();
     ::close(descriptor);
+    ::close(locked_);
     ::unlink(partial_.c_str());
     throw ImageError(destination_, "cannot be written: " + why);
 }
@@ -58,7 +59,7 @@ int PartialFile::openPartial() {
     constexpr int kAttempts = 100;
     for (int n = 0; n < kAttempts;) {
         partial_ = target_;
-        partial_ += ".part" + std::to_string(n);
+        partial_ += ".isochron-part" + std::to_string(n);
         int file = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file >= 0) {
             (void)::flock(file, LOCK_EX | LOCK_NB);

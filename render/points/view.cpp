@@ -4,6 +4,7 @@
 #include <glm/matrix.hpp>
 
 namespace render {
+
 glm::dmat4 clipFromView(const Frustum& f) {
     // OpenXR's and GL's asymmetric projection with depth [0, 1]: columns of x, y, z, 1.
     glm::dmat4 m(0.0);

@@ -21,6 +21,8 @@ TEST(DrawnText, CountsCells) {
     EXPECT_EQ(cellsText(0), "0 cells drawn");
     EXPECT_EQ(cellsText(1), "1 cell drawn");
     EXPECT_EQ(cellsText(3321), "3,321 cells drawn");
+    EXPECT_EQ(cellsText(3321, 20518), "3,321 cells and 20,518 points drawn");
+    EXPECT_EQ(cellsText(1, 1), "1 cell and 1 point drawn");
 }
 
 }  // namespace

@@ -23,19 +23,34 @@ TEST(ErrorText, IsRoundedToWhatASampleTells) {
     EXPECT_EQ(depthErrorText(kInfinite), "");
 }
 
+auto part(const char* name, const char* size, const char* what) {
+    return testing::AllOf(Field(&PartLine::name, name), Field(&PartLine::size, size),
+                          Field(&PartLine::what, HasSubstr(what)));
+}
+
+// What draws still fewer is no truer.
+TEST(ErrorText, OfFewerPointsThanAnyoneLookedAtTheErrorIsMore) {
+    RungError error{.rung = {Model::Points, 16}, .depth = 0.18, .order = 0};
+    error.parts = ErrorParts{.model = 0.06, .subset = 0.17, .pixels = 0};
+    const Rung fewer{Model::Points, 64};
+    EXPECT_EQ(boundOf(error, error.rung), Bound::About);
+    EXPECT_EQ(boundOf(error, fewer), Bound::Least);
+    EXPECT_EQ(depthErrorText(error.depth, Bound::Least), "error above 18 %");
+    EXPECT_EQ(depthErrorText(0.004, Bound::Least), "error above 0.4 %");
+    EXPECT_EQ(depthErrorText(0.0001, Bound::Least), "error above 0 %");
+    EXPECT_THAT(partLines(error, Ordering::OneColor, fewer)[1],
+                part("subset", "above 17 %", "1 of 64 points"));
+    EXPECT_THAT(partLines(error, Ordering::OneColor)[1], part("subset", "17 %", "1 of 16 points"));
+}
+
 TEST(ErrorText, LightIsToldWhereOrderShows) {
     RungError error{.rung = {}, .depth = 0.03, .order = 0.08};
     EXPECT_EQ(lightErrorText(error, Ordering::Mixed), ", light 8 % (colours mixed)");
-    EXPECT_EQ(lightErrorText(error, Ordering::ByDepth), ", light 8 % (layers within a cell)");
+    EXPECT_EQ(lightErrorText(error, Ordering::ByDepth), ", light 8 % (colours within a cell)");
     error.order = 0.0009;
     EXPECT_EQ(lightErrorText(error, Ordering::Mixed), "");
     error.order = std::nan("");
     EXPECT_EQ(lightErrorText(error, Ordering::Mixed), "");
-}
-
-auto part(const char* name, const char* size, const char* what) {
-    return testing::AllOf(Field(&PartLine::name, name), Field(&PartLine::size, size),
-                          Field(&PartLine::what, HasSubstr(what)));
 }
 
 TEST(ErrorText, PartsAreFourAndSayWhyTheyAreNone) {
@@ -52,6 +67,9 @@ TEST(ErrorText, PartsAreFourAndSayWhyTheyAreNone) {
                             part("subset", "40 %", "1 of 8 points"),
                             part("pixels", "below 0.1 %", "few rays"),
                             part("order", "21 %", "colours mixed")));
+    cells.order = std::nan("");  // some points among them
+    EXPECT_EQ(partLines(cells, Ordering::ByDepth).front().what,
+              "cells and points in place of the field between points");
     points.order = std::nan("");  // some among cells
     EXPECT_THAT(partLines(points, Ordering::ByDepth).back(),
                 part("order", "not known", "points among cells"));

@@ -278,5 +278,18 @@ TEST(Exploration, ASessionOpensAsItSays) {
     EXPECT_TRUE(desk.exploration.canUndo());
 }
 
+// As of data that have become fewer.
+TEST(Exploration, AStepThatASessionNamesAndNobodyHasIsTold) {
+    Desk desk({{"b", {.steps = 20}}});
+    Explorer session;
+    session.files = {"b"};
+    session.steps = StepChoice{25, 25};
+    desk.exploration.open(session);
+    desk.untilOpened();
+    EXPECT_EQ(desk.shownStep(), 19u);
+    EXPECT_THAT(desk.errors(),
+                testing::ElementsAre("There is no step 25: the last one, 19, is shown"));
+}
+
 }  // namespace
 }  // namespace app

@@ -12,6 +12,7 @@
 #include "app/choices/session.h"
 #include "app/choices/user_files.h"
 #include "render/gl/headless_context.h"
+#include "tests/support/built_paths.h"
 #include "tests/support/files.h"
 #include "tests/support/variable.h"
 
@@ -64,6 +65,38 @@ TEST(FileActions, ASavedSessionTellsTheErrorAndIsReadWithoutIt) {
         }
         EXPECT_EQ(readSession(file), exploration.explorer());
     }
+}
+
+// Who opens them anew has other data than the window shows.
+TEST(FileActions, NothingIsExportedOfFilesThatAreOthersNow) {
+    const auto home = tests::freshFolder();
+    const tests::Variable state("XDG_STATE_HOME", home), config("XDG_CONFIG_HOME", home);
+    const auto data = home / "fire.nc";
+    std::filesystem::copy_file(tests::demo(), data);
+    const render::gl::HeadlessContext context;
+    Canvas canvas;
+    Exploration exploration({});
+    exploration.open({data});
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!exploration.shown() && std::chrono::steady_clock::now() < end)
+        exploration.advance(std::chrono::milliseconds(1));
+    ASSERT_TRUE(exploration.shown());
+    std::optional<ExportJob> exporting;
+    FileActions fileActions(exploration, canvas, exporting, [](const std::string&) {});
+    const auto lastTold = [&] { return exploration.messages().back().text; };
+    fileActions.save(home / "before.json");
+    EXPECT_EQ(lastTold(), "Saved " + (home / "before.json").string());
+    std::filesystem::remove(data);
+    std::filesystem::copy_file(tests::demo(), data);
+    const std::string changed =
+        data.string() + ": it has changed since it was opened: open it again";
+    fileActions.exportTo(home / "a.png");
+    EXPECT_FALSE(exporting);
+    EXPECT_EQ(lastTold(), changed);
+    exploration.forgetMessage(exploration.messages().back().number);
+    fileActions.save(home / "after.json");
+    EXPECT_EQ(lastTold(), changed);
+    EXPECT_TRUE(std::filesystem::exists(home / "after.json"));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(PartialFile, WritesIntoWhatIsNoFile) {
 TEST(PartialFile, LeftoversAreNotInTheWay) {
     const fs::path folder = tests::freshFolder(), to = folder / "picture.png";
     for (int n = 0; n < 100; ++n)
-        tests::writeBytes(folder / ("picture.png.part" + std::to_string(n)), "left");
+        tests::writeBytes(folder / ("picture.png.isochron-part" + std::to_string(n)), "left");
     {
         PartialFile one(to), other(to);
         std::fputs("one", one.stream());
@@ -67,8 +67,8 @@ TEST(PartialFile, LeftoversAreNotInTheWay) {
     }
     write(to, "after");
     EXPECT_EQ(tests::readBytes(to), "after");
-    EXPECT_FALSE(fs::exists(folder / "picture.png.part0"));
-    EXPECT_FALSE(fs::exists(folder / "picture.png.part1"));
+    EXPECT_FALSE(fs::exists(folder / "picture.png.isochron-part0"));
+    EXPECT_FALSE(fs::exists(folder / "picture.png.isochron-part1"));
 }
 
 TEST(PartialFile, WhoMayReadAFileStaysAsItIs) {

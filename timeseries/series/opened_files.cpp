@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "timeseries/readers/reader.h"
 
@@ -44,6 +45,12 @@ std::optional<OpenedFiles::Seen> OpenedFiles::look(const fs::path& file) {
     if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
     return Seen{status.st_dev, status.st_ino, static_cast<std::uint64_t>(status.st_size),
                 status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+void OpenedFiles::expectSame() {
+    std::vector<fs::path> files;
+    for (const auto& [file, first] : files_) files.push_back(file);
+    expectSame(files);
 }
 
 void OpenedFiles::expectSame(std::span<const fs::path> files) {

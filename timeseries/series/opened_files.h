@@ -21,6 +21,7 @@ class OpenedFiles {
     // Throws FileError when one of them is another, or of another size or time, than when it was
     // seen first, unless it has but grown. Folders gain files, and what is gone its reader tells.
     void expectSame(std::span<const std::filesystem::path> files);
+    void expectSame();  // those that it was made with
 
  private:
     struct Seen {

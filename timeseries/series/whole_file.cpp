@@ -78,7 +78,7 @@ WholeFile::WholeFile(fs::path path) : path_(std::move(path)) {
         }
         struct stat status {};
         if (::fstat(file_, &status) == 0 && status.st_nlink > 0) {
-            if (replaces) (void)::fchmod(file_, there.st_mode & 07777);
+            if (replaces) (void)::fchmod(file_, there.st_mode & 0777);
             return;
         }
         ::close(std::exchange(file_, -1));

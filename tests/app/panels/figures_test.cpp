@@ -88,6 +88,20 @@ TEST(Figures, SayOfAnotherPicturesErrorThatItWas) {
     }
 }
 
+// Of fewer points than any whose error is known.
+TEST(Figures, SayThatTheErrorOfStillFewerPointsIsMore) {
+    tests::ScriptedExploration desk;
+    Performance p = sevenPoints();
+    p.report.stride = 64;
+    p.report.whole = false;
+    p.isErrorOfAnother = true;
+    p.errors = DepthErrors{.rungs = {{.rung = {Model::Points, 16}, .depth = 0.18}}};
+    EXPECT_THAT(figuresOf(p, desk.exploration.series()).front(), HasSubstr("error was above 18 %"));
+    EXPECT_THAT(errorLines(p).back(),
+                testing::AllOf(HasSubstr("above 18 %  1 of 64 points"), HasSubstr("as drawn")));
+    EXPECT_EQ(errorPartLines(p)[1].what, "known once the picture rests");
+}
+
 // Where colours are mixed, the same line says what that costs.
 TEST(Figures, StateTheErrorOfLightWhereColoursAreMixed) {
     tests::ScriptedExploration desk;
