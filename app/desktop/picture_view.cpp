@@ -61,7 +61,7 @@ void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect
                        bool playing, bool held, const panels::Choices& choices) {
     if (shown == nullptr) return render::showGround(window, kGroundColor);
     playing_ = playing;
-    partsCame_ = false;
+    partsCame_ = std::max(partsCame_ - 1, 0);
     const bool current = isCurrent(*shown);
     rest_.frame(!current, held, Clock::now());
     const bool resting = !playing && rest_.is(Clock::now());
@@ -141,7 +141,7 @@ void PictureView::tellError() {
     predictError();
     performance_.isErrorOfAnother = false;
     measured_ = parts_;
-    partsCame_ = parts_ == Parts::All;
+    partsCame_ = parts_ == Parts::All ? 3 : 0;
 }
 
 // Steps of a series and views of a step are alike enough for the figure that is told.
@@ -157,7 +157,7 @@ void PictureView::took(std::chrono::nanoseconds frame) {
 }
 
 std::optional<std::chrono::nanoseconds> PictureView::untilNextDraw() const {
-    if (partsCame_) return 0ns;
+    if (partsCame_ > 0) return 0ns;
     if (!content_ || (isDone() && (playing_ || !waitsForError()))) return std::nullopt;
     const bool goesOn = !isDone() && (report_.uploaded < 1 || (report_.refined > 0 && !playing_));
     return goesOn ? 0ns : std::chrono::nanoseconds(Rest::kHesitation);

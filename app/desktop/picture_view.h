@@ -94,7 +94,8 @@ class PictureView {
     Explorer errorsOf_;
     std::optional<Parts> measured_;  // of the picture that is kept: what was asked for
     Parts parts_ = Parts::None;      // what is to be
-    bool partsCame_ = false;         // with the last draw(): panels were drawn before
+    // Panels were drawn before the parts came, and what opens for them has its size a frame later.
+    int partsCame_ = 0;  // so many frames are to come
     render::Outline outline_{glm::dmat3(0.5)};
     std::vector<render::View> eyes_;
     glm::ivec2 grid_{1};  // how many eyes' pictures stand beside and above each other

@@ -24,6 +24,7 @@
 #include "app/choices/session.h"
 #include "app/json_text.h"
 #include "app/picture/picture.h"
+#include "render/image/picture_file.h"
 #include "timeseries/together.h"
 
 namespace app {
@@ -95,8 +96,7 @@ class Spawn {
     posix_spawnattr_t attributes_;
 };
 
-// What a child that was killed leaves of the picture it was writing: OUT_12.png.part0 (see
-// render/image/picture_file.h).
+// What a child that was killed leaves of the picture it was writing.
 void removePartial(const fs::path& output) {
     const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
     std::vector<fs::path> partial;
@@ -105,7 +105,7 @@ void removePartial(const fs::path& output) {
         const std::string name = at->path().filename().string();
         if (name.starts_with(output.stem().string()) &&
             at->path().stem().extension() == output.extension() &&
-            at->path().extension().string().starts_with(".part"))
+            at->path().extension().string().starts_with(render::PartialFile::kSuffix))
             partial.push_back(at->path());
     }
     for (const fs::path& file : partial) fs::remove(file, error);

@@ -59,7 +59,7 @@ int PartialFile::openPartial() {
     constexpr int kAttempts = 100;
     for (int n = 0; n < kAttempts;) {
         partial_ = target_;
-        partial_ += ".isochron-part" + std::to_string(n);
+        partial_ += kSuffix + std::to_string(n);
         int file = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file >= 0) {
             (void)::flock(file, LOCK_EX | LOCK_NB);

@@ -14,6 +14,8 @@ namespace render {
 // a program that was ended. What is no file, as a pipe or /dev/stdout, is written into.
 class PartialFile {
  public:
+    // What a number behind makes of the destination's name until then.
+    static constexpr const char* kSuffix = ".isochron-part";
     // Throws ImageError.
     explicit PartialFile(std::filesystem::path destination);
     ~PartialFile();
