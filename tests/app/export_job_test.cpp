@@ -85,8 +85,8 @@ TEST(ExportJob, AChildThatFailsHandsOnItsSentence) {
 TEST(ExportJob, IsCancelledAndItsPartialPictureRemoved) {
     const auto folder = tests::freshFolder();
     tests::writeBytes(folder / "out_0.png", "done");
-    tests::writeBytes(folder / "out_1.png.part0", "half");
-    tests::writeBytes(folder / "other.png.part0", "not its own");
+    tests::writeBytes(folder / "out_1.png.isochron-part0", "half");
+    tests::writeBytes(folder / "other.png.isochron-part0", "not its own");
     ExportJob job(example(), into(folder / "out.png"),
                   programOf("echo picture 1 of 2; exec sleep 1000"));
     pollUntil(job, [&] { return job.done() == 1; });
@@ -97,8 +97,8 @@ TEST(ExportJob, IsCancelledAndItsPartialPictureRemoved) {
     EXPECT_EQ(job.outcome(),
               "Export cancelled after 1 of 3 pictures, which stay in " + folder.string());
     EXPECT_TRUE(std::filesystem::exists(folder / "out_0.png"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "out_1.png.part0"));
-    EXPECT_TRUE(std::filesystem::exists(folder / "other.png.part0"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out_1.png.isochron-part0"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "other.png.isochron-part0"));
 }
 
 TEST(ExportJob, IsCancelledBeforeItsFirstPicture) {
@@ -123,7 +123,7 @@ TEST(ExportJob, SaysHowFarItCameWhereItIsEnded) {
 
 TEST(ExportJob, DroppingItEndsTheChildAndLeavesNothingOfIt) {
     const auto folder = tests::freshFolder();
-    const auto half = folder / "out_3.png.part0", child = folder / "child",
+    const auto half = folder / "out_3.png.isochron-part0", child = folder / "child",
                session = folder / "session";
     const auto program =
         programOf("echo $$ > " + child.string() + "; printf %s \"$3\" > " + session.string() +
