@@ -96,7 +96,9 @@ void Exploration::takeOpened() {
     const StepChoice asked =
         wish.steps.value_or(StepChoice{dataset.defaultStep, dataset.defaultStep});
     const std::size_t first = std::min(asked.first, last);
-    if (asked.first > last)
+    // Another variable may have fewer, and is shown at its last.
+    const bool isSession = pending_->rest == Pending::Rest::AsWished && pending_->travel == 0;
+    if (isSession && asked.first > last)
         tell(fmt::format("There is no step {}: the last one, {}, is shown", asked.first, last),
              true);
     // Several steps are what is to be played.

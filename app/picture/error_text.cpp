@@ -64,15 +64,16 @@ std::vector<PartLine> partLines(const RungError& error, Ordering ordering,
                                           cells && std::isnan(error.order) ? "cells and points"
                                           : cells                          ? "cells"
                                                                            : "points");
+    const std::string subset = rungText(drawn) + " for all of them";
     std::vector<PartLine> lines{
         line("model", parts.model, model, "exact here"),
-        line("subset", parts.subset, rungText(drawn) + " for all of them", "all is drawn"),
+        boundOf(error, drawn) == Bound::Least
+            ? PartLine{"subset", shareText(parts.subset, Bound::Least), subset}
+            : line("subset", parts.subset, subset, "all is drawn"),
         line("pixels", parts.pixels,
              error.rung.across == 1 ? "few rays a pixel instead of its mean"
                                     : "coarse pixels, and few rays in each",
              "as many rays as the truth")};
-    if (boundOf(error, drawn) == Bound::Least)
-        lines[1].size = shareText(parts.subset, Bound::Least);
     if (std::isnan(error.order)) {
         lines.push_back({"order", "not known", "points among cells"});
         return lines;

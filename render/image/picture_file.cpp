@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "render/image/image.h"
+#include "timeseries/series/replaced_file.h"
 
 namespace render {
 
@@ -22,27 +23,18 @@ std::string lastError() { return std::generic_category().message(errno); }
 }  // namespace
 
 PartialFile::PartialFile(std::filesystem::path destination) : destination_(std::move(destination)) {
-    // A link stays, and what it leads to is replaced; one that leads nowhere is replaced itself.
-    std::error_code none;
-    target_ = destination_;
-    if (std::filesystem::is_symlink(destination_, none))
-        if (auto led = std::filesystem::canonical(destination_, none); !none)
-            target_ = std::move(led);
-    if (const auto there = std::filesystem::status(target_, none);
-        std::filesystem::exists(there) && !std::filesystem::is_regular_file(there) &&
-        !std::filesystem::is_directory(there)) {  // a device or a pipe is written into
+    const timeseries::ReplacedFile there(destination_);
+    target_ = there.target;
+    if (!there.isFile() && !there.isFolder()) {  // a device or a pipe is written into
         stream_.reset(std::fopen(target_.c_str(), "wbe"));
         if (!stream_) throw ImageError(destination_, "cannot be written: " + lastError());
         return;
     }
-    // What is not to be written is not replaced either, and who may read it stays as it is.
-    struct stat there {};
-    const bool replaces = ::stat(target_.c_str(), &there) == 0;
-    if (replaces && ::access(target_.c_str(), W_OK) != 0)
-        throw ImageError(destination_, "cannot be written: " + lastError());
+    errno = there.refusal;
+    if (errno != 0) throw ImageError(destination_, "cannot be written: " + lastError());
     const int descriptor = openPartial();
     if (descriptor < 0) throw ImageError(destination_, "cannot be created: " + lastError());
-    if (replaces) (void)::fchmod(descriptor, there.st_mode & 0777);
+    there.keepMode(descriptor);
     locked_ = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
     stream_.reset(::fdopen(descriptor, "wb"));
     if (stream_) return;
@@ -57,25 +49,27 @@ PartialFile::PartialFile(std::filesystem::path destination) : destination_(std::
 // is what a program has left that was ended.
 int PartialFile::openPartial() {
     constexpr int kAttempts = 100;
-    for (int n = 0; n < kAttempts;) {
+    const auto lock = [](int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0; };
+    const auto isNamed = [&](int file) {
+        struct stat made {
+        }, named{};
+        return ::fstat(file, &made) == 0 && ::stat(partial_.c_str(), &named) == 0 &&
+               made.st_ino == named.st_ino;
+    };
+    for (int n = 0; n < kAttempts; ++n) {
         partial_ = target_;
         partial_ += kSuffix + std::to_string(n);
-        int file = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file >= 0) {
-            (void)::flock(file, LOCK_EX | LOCK_NB);
-            struct stat made {};
-            if (::fstat(file, &made) == 0 && made.st_nlink > 0) return file;
-            ::close(file);  // taken for a leftover before it had its lock
-            continue;
+        const int left = ::open(partial_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+        if (left >= 0) {
+            if (lock(left)) ::unlink(partial_.c_str());
+            ::close(left);
         }
-        if (errno != EEXIST) break;
-        file = ::open(partial_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
-        if (file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::unlink(partial_.c_str()) == 0) {
-            ::close(file);
-            continue;
-        }
-        if (file >= 0) ::close(file);
-        ++n;
+        const int file = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file < 0 && errno != EEXIST) break;
+        if (file < 0) continue;
+        (void)lock(file);  // where the file system knows no locks, nothing is taken for a leftover
+        if (isNamed(file)) return file;
+        ::close(file);  // taken for a leftover before it had its lock
     }
     partial_.clear();
     return -1;

@@ -1,12 +1,11 @@
-// What a ray sees of layers that it passes, from the eye on: emission and absorption, of optical
-// depth opticalDepthPerWeight(opacity) a unit of W and of the colour that the field's value has.
+// What a ray sees of layers that it passes, from the eye on: emission and absorption, of the colour
+// that the field's value has.
 #pragma once
 
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <span>
-#include <vector>
 
 #include "render/model/scene.h"
 
@@ -15,26 +14,15 @@ namespace render {
 class LightOnRay {
  public:
     // The layers outlive this.
-    explicit LightOnRay(std::span<const Layer> layers) : layers_(layers) {
-        for (const Layer& layer : layers)
-            depthPerWeight_.push_back(opticalDepthPerWeight(layer.style.opacity));
-    }
+    explicit LightOnRay(std::span<const Layer> layers) : layers_(layers) {}
 
     void begin() {
         rgb_ = glm::dvec3(0);
         through_ = 1;
     }
-    // The next piece of the way, so long in W, on all of which it is in these layers:
-    // valueAt(i, share) is the field's value for the i-th of them at a share of the piece, and
-    // shadeAt(i, share) what light makes of its colour there.
-    template <typename ValueAt, typename ShadeAt>
-    void pass(std::span<const std::size_t> in, double weight, const ValueAt& valueAt,
-              const ShadeAt& shadeAt) {
-        depths_.clear();
-        for (const std::size_t layer : in) depths_.push_back(depthPerWeight_[layer] * weight);
-        pass(in, depths_, valueAt, shadeAt);
-    }
-    // The same where each layer has an optical depth of its own on this piece.
+    // The next piece of the way, on all of which it is in these layers, each of an optical depth of
+    // its own there: valueAt(i, share) is the field's value for the i-th of them at a share of the
+    // piece, and shadeAt(i, share) what light makes of its colour there.
     template <typename ValueAt, typename ShadeAt>
     void pass(std::span<const std::size_t> in, std::span<const double> depths,
               const ValueAt& valueAt, const ShadeAt& shadeAt) {
@@ -62,7 +50,6 @@ class LightOnRay {
 
  private:
     std::span<const Layer> layers_;
-    std::vector<double> depthPerWeight_, depths_;
     glm::dvec3 rgb_{0};
     double through_ = 1;
 };

@@ -41,6 +41,11 @@ TEST(ErrorText, OfFewerPointsThanAnyoneLookedAtTheErrorIsMore) {
     EXPECT_THAT(partLines(error, Ordering::OneColor, fewer)[1],
                 part("subset", "above 17 %", "1 of 64 points"));
     EXPECT_THAT(partLines(error, Ordering::OneColor)[1], part("subset", "17 %", "1 of 16 points"));
+    // Also where only all of them were looked at.
+    error.rung.stride = 1;
+    error.parts->subset = 0;
+    EXPECT_THAT(partLines(error, Ordering::OneColor, fewer)[1],
+                part("subset", "above 0 %", "1 of 64 points"));
 }
 
 TEST(ErrorText, LightIsToldWhereOrderShows) {

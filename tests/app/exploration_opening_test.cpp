@@ -291,5 +291,18 @@ TEST(Exploration, AStepThatASessionNamesAndNobodyHasIsTold) {
                 testing::ElementsAre("There is no step 25: the last one, 19, is shown"));
 }
 
+// As of a variable that has fewer than the one before.
+TEST(Exploration, AnEditToFewerStepsIsShownAtTheLastWithoutAWord) {
+    Desk desk({{"a", {.steps = 30}}, {"b", {.steps = 20}}});
+    desk.open("a");
+    desk.exploration.seek(25);
+    Explorer next = desk.exploration.explorer();
+    next.files = {"b"};
+    desk.exploration.edit(next);
+    desk.untilOpened();
+    EXPECT_EQ(desk.shownStep(), 19u);
+    EXPECT_THAT(desk.errors(), testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace app

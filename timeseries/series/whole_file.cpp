@@ -13,6 +13,8 @@
 #include <string_view>
 #include <utility>
 
+#include "timeseries/series/replaced_file.h"
+
 namespace timeseries {
 namespace {
 
@@ -57,16 +59,12 @@ std::string finishedName(std::string_view name) {
 
 // Between being made and being locked it looks like a leftover, and may be removed.
 WholeFile::WholeFile(fs::path path) : path_(std::move(path)) {
-    // A link stays, and what it leads to is replaced; one that leads nowhere is replaced itself.
-    std::error_code none;
-    if (fs::is_symlink(path_, none))
-        if (auto led = fs::canonical(path_, none); !none) path_ = std::move(led);
-    struct stat there {};
-    const bool replaces = ::stat(path_.c_str(), &there) == 0;
-    if (replaces && !S_ISREG(there.st_mode))
+    const ReplacedFile there(path_);
+    path_ = there.target;
+    if (!there.isFile())
         throw StepFileError(
             fmt::format("{}: expected the name of a file, or of none yet", path_.string()));
-    if (replaces && ::access(path_.c_str(), W_OK) != 0) fail(path_, errno);
+    if (there.refusal != 0) fail(path_, there.refusal);
     for (;;) {
         unfinished_ = path_;
         unfinished_ += fmt::format(".{}-{}{}", ::getpid(), written++, kSuffix);  // finishedName()
@@ -78,7 +76,7 @@ WholeFile::WholeFile(fs::path path) : path_(std::move(path)) {
         }
         struct stat status {};
         if (::fstat(file_, &status) == 0 && status.st_nlink > 0) {
-            if (replaces) (void)::fchmod(file_, there.st_mode & 0777);
+            there.keepMode(file_);
             return;
         }
         ::close(std::exchange(file_, -1));
