@@ -1,6 +1,7 @@
 #include "render/reference/interval_cells.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
@@ -59,22 +60,20 @@ struct Octants {
 // Each corner without a value has the mean of those that have one and are the fewest edges away.
 void fillGaps(std::array<double, 8>& values) {
     const std::array<double, 8> known = values;
-    for (unsigned c = 0; c < 8; ++c) {
-        std::array<std::vector<double>, 4> edgesAway;
-        for (unsigned other = 0; other < 8; ++other)
-            if (!std::isnan(known[other]))
-                edgesAway[(c ^ other) / 4 + (c ^ other) / 2 % 2 + (c ^ other) % 2].push_back(
-                    known[other]);
-        const auto nearest = std::ranges::find_if(
-            edgesAway, [](const std::vector<double>& some) { return !some.empty(); });
-        if (nearest == edgesAway.end()) return;
-        double quarters = 0;
-        for (const double v : *nearest) quarters += v / 4;
-        const auto [least, greatest] = std::ranges::minmax(*nearest);
-        if (std::isnan(known[c]))
-            values[c] = std::clamp(quarters * (4.0 / static_cast<double>(nearest->size())), least,
-                                   greatest);
-    }
+    for (unsigned c = 0; c < 8; ++c)
+        for (int edges = 1; std::isnan(values[c]) && edges <= 3; ++edges) {
+            double quarters = 0, least = kInfinity, greatest = -kInfinity;
+            int count = 0;
+            for (unsigned other = 0; other < 8; ++other) {
+                const double v = known[other];
+                if (std::isnan(v) || std::popcount(c ^ other) != edges) continue;
+                quarters += v / 4;
+                least = std::min(least, v);
+                greatest = std::max(greatest, v);
+                ++count;
+            }
+            if (count > 0) values[c] = std::clamp(quarters * (4.0 / count), least, greatest);
+        }
 }
 
 unsigned octantOf(const glm::dvec3& place) {

@@ -81,6 +81,49 @@ TEST(PlainHdf5, WhatHasItsValuesInOtherFilesHasNoSources) {
     }
 }
 
+// HDF5 has nought for what it does not find.
+TEST(PlainHdf5, ValuesOfAFileThatIsNotThereAreNotMadeUp) {
+    const auto other =
+        array<float>(H5T_NATIVE_FLOAT, {3, 4, 5}, std::nullopt, std::vector<float>(60, 1));
+    const auto path = tests::testFolder() / "virtual.h5";
+    const std::array<hsize_t, 3> size{3, 4, 5};
+    const auto of = [&](const std::filesystem::path& source, const char* name) {
+        const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        const hid_t space = H5Screate_simple(3, size.data(), nullptr);
+        const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
+        H5Pset_virtual(made, space, source.c_str(), name, space);
+        const hid_t within = H5Gcreate2(file, "g", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        H5Dclose(H5Dcreate2(within, "v", H5T_NATIVE_FLOAT, space, H5P_DEFAULT, made, H5P_DEFAULT));
+        H5Lcreate_soft("v", within, "also", H5P_DEFAULT, H5P_DEFAULT);
+        H5Gclose(within);
+        H5Pclose(made);
+        H5Sclose(space);
+        H5Fclose(file);
+        return open(path);
+    };
+    for (const std::filesystem::path& there :
+         {other, other.filename(), "/nowhere" / other.filename()})
+        EXPECT_EQ(std::get<std::vector<float>>(of(there, "v")->read(0, 0).values),
+                  std::vector<float>(60, 1))
+            << there;
+    const auto refusal = [&](const std::filesystem::path& source, const char* name) {
+        const auto reader = of(source, name);
+        std::string all;
+        for (std::size_t i = 0; i < reader->variables().size(); ++i) try {
+                reader->read(i, 0);
+                ADD_FAILURE() << reader->variables()[i].name;
+            } catch (const FileError& error) {
+                all += error.what() + std::string("\n");
+            }
+        return all;
+    };
+    EXPECT_THAT(refusal("gone.h5", "v"),
+                testing::HasSubstr("virtual.h5: variable 'g/v': expected values of 'v' of gone.h5, "
+                                   "which is not there\n"));
+    EXPECT_THAT(refusal(other, "w"), testing::HasSubstr("expected values of 'w' of " +
+                                                        other.string() + ", which is not there\n"));
+}
+
 // As HDF5 locks what it writes.
 TEST(PlainHdf5, AFileThatIsWrittenIsToldAndOneThatIsReadCanBeWritten) {
     const auto path =

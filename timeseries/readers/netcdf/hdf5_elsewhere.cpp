@@ -1,38 +1,111 @@
 #include "timeseries/readers/netcdf/hdf5_elsewhere.h"
 
+#include <fmt/format.h>
 #include <hdf5.h>
+
+#include <cstdlib>
+#include <set>
+#include <utility>
 
 namespace timeseries {
 namespace {
 
-bool isElsewhere(hid_t dataset) {
-    const hid_t created = H5Dget_create_plist(dataset);
-    if (created < 0) return true;
-    const bool is = H5Pget_layout(created) == H5D_VIRTUAL || H5Pget_external_count(created) != 0;
-    H5Pclose(created);
-    return is;
+using Source = std::pair<std::string, std::string>;  // file, dataset
+
+struct Visit {
+    std::filesystem::path folder;
+    std::set<Source> there;  // known to be
+    Hdf5Elsewhere found;
+};
+
+bool opens(const std::filesystem::path& path, const std::string& dataset) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return false;  // a pipe would be waited for
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (file < 0) return false;
+    const hid_t source = H5Dopen2(file, dataset.c_str(), H5P_DEFAULT);
+    if (source >= 0) H5Dclose(source);
+    H5Fclose(file);
+    return source >= 0;
 }
 
-// 1 ends the visit: found.
-herr_t look(hid_t group, const char* name, const H5L_info_t* link, void*) {
-    if (link->type == H5L_TYPE_EXTERNAL) return 1;
-    if (link->type != H5L_TYPE_HARD) return 0;  // soft ones lead to what is visited
+// Looked for where HDF5 does: below its prefix, in the folder of the file, as it is named, and of
+// a file that was moved with it by its name alone.
+bool isThere(const Source& source, Visit& visit) {
+    if (visit.there.contains(source)) return true;
+    const std::filesystem::path named = source.first;
+    const char* const prefix = std::getenv("HDF5_VDS_PREFIX");
+    for (const auto& path : {(prefix ? prefix : "") / named, visit.folder / named, named,
+                             visit.folder / named.filename()})
+        if (opens(path, source.second)) {
+            visit.there.insert(source);
+            return true;
+        }
+    return false;
+}
+
+// `get` as H5Pget_virtual_filename: of a text that has no more than its length.
+std::string textOf(hid_t created, std::size_t mapping, const auto& get) {
+    std::string text(4096, '\0');
+    const ssize_t length = get(created, mapping, text.data(), text.size());
+    text.resize(length > 0 && length < static_cast<ssize_t>(text.size()) ? length : 0);
+    return text;
+}
+
+void lookAtSources(hid_t created, const char* name, Visit& visit) {
+    std::size_t mappings = 0;
+    H5Pget_virtual_count(created, &mappings);
+    for (std::size_t i = 0; i < mappings; ++i) {
+        const Source source(textOf(created, i, H5Pget_virtual_filename),
+                            textOf(created, i, H5Pget_virtual_dsetname));
+        // Of the file itself; one of a number of files that goes on as long as there are any.
+        if (source.first == "." || (source.first + source.second).find('%') != std::string::npos)
+            continue;
+        if (!isThere(source, visit)) {
+            visit.found.missing.emplace(name,
+                                        fmt::format("'{}' of {}", source.second, source.first));
+            return;
+        }
+    }
+}
+
+void lookAtDataset(hid_t dataset, const char* name, Visit& visit) {
+    const hid_t created = H5Dget_create_plist(dataset);
+    if (created < 0) {
+        visit.found.any = true;
+        return;
+    }
+    const bool isVirtual = H5Pget_layout(created) == H5D_VIRTUAL;
+    if (isVirtual || H5Pget_external_count(created) != 0) visit.found.any = true;
+    if (isVirtual) lookAtSources(created, name, visit);
+    H5Pclose(created);
+}
+
+herr_t look(hid_t group, const char* name, const H5L_info_t* link, void* data) {
+    Visit& visit = *static_cast<Visit*>(data);
+    if (link->type == H5L_TYPE_EXTERNAL) visit.found.any = true;
+    // What a soft link leads to is looked at under its name, too.
+    if (link->type != H5L_TYPE_HARD && link->type != H5L_TYPE_SOFT) return 0;
     const hid_t object = H5Oopen(group, name, H5P_DEFAULT);
-    if (object < 0) return 1;
-    const bool is = H5Iget_type(object) == H5I_DATASET && isElsewhere(object);
+    if (object < 0) {
+        if (link->type == H5L_TYPE_HARD) visit.found.any = true;
+        return 0;
+    }
+    if (H5Iget_type(object) == H5I_DATASET) lookAtDataset(object, name, visit);
     H5Oclose(object);
-    return is ? 1 : 0;
+    return 0;
 }
 
 }  // namespace
 
-bool hdf5HasValuesElsewhere(const std::filesystem::path& path) {
-    if (H5Fis_hdf5(path.c_str()) <= 0) return false;
+Hdf5Elsewhere hdf5Elsewhere(const std::filesystem::path& path) {
+    if (H5Fis_hdf5(path.c_str()) <= 0) return {};
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (file < 0) return true;
-    const herr_t found = H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, look, nullptr);
+    if (file < 0) return {.any = true, .missing = {}};
+    Visit visit{std::filesystem::absolute(path).parent_path(), {}, {}};
+    if (H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, look, &visit) < 0) visit.found.any = true;
     H5Fclose(file);
-    return found != 0;
+    return std::move(visit.found);
 }
 
 }  // namespace timeseries

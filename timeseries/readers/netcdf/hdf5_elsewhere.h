@@ -1,13 +1,21 @@
-// Whether a file of HDF5 has values of other files: by external links, virtual datasets or external
-// storage ("HDF5 File Format Specification 3.0", IV.A.2.g, h and i). Those may change while it does
-// not.
+// What a file of HDF5 has of other files: by external links, virtual datasets or external storage
+// ("HDF5 File Format Specification 3.0", IV.A.2.g, h and i). Those may change while it does not.
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 namespace timeseries {
 
-// Also where that cannot be told. False of a file of another format. REQUIRES: the lock of HDF5.
-bool hdf5HasValuesElsewhere(const std::filesystem::path& path);
+struct Hdf5Elsewhere {
+    bool any = false;  // also where that cannot be told
+    // Of virtual datasets ("v", in a group "g/v") that have values of a dataset which is not
+    // there: its file, and its name. HDF5 reads a fill value instead, and says nothing.
+    std::map<std::string, std::string> missing;
+};
+
+// Nothing of a file of another format. REQUIRES: the lock of HDF5.
+Hdf5Elsewhere hdf5Elsewhere(const std::filesystem::path& path);
 
 }  // namespace timeseries

@@ -19,7 +19,6 @@
 #include "timeseries/readers/forked_call.h"
 #include "timeseries/readers/limits.h"
 #include "timeseries/readers/netcdf/classic_layout.h"
-#include "timeseries/readers/netcdf/hdf5_elsewhere.h"
 #include "timeseries/readers/netcdf/netcdf_types.h"
 #include "timeseries/readers/reader.h"
 
@@ -124,7 +123,7 @@ void NetcdfFile::open() {
     check(nc_open(std::filesystem::absolute(path_).c_str(), NC_NOWRITE, &id_), "",
           "a whole netCDF file, whose links lead somewhere");
     try {
-        hasValuesElsewhere_ = hdf5HasValuesElsewhere(path_);  // while it shares what is read of it
+        elsewhere_ = hdf5Elsewhere(path_);  // while it shares what is read of it
         readHeader();
     } catch (...) {
         nc_close(id_);
@@ -138,7 +137,7 @@ NetcdfFile::~NetcdfFile() {
 }
 
 std::vector<std::filesystem::path> NetcdfFile::sources() const {
-    return hasValuesElsewhere_ ? std::vector<std::filesystem::path>() : CfFile::sources();
+    return elsewhere_.any ? std::vector<std::filesystem::path>() : CfFile::sources();
 }
 
 std::string NetcdfFile::tooLarge(const NcVariable& variable, std::uint64_t points) const {
@@ -158,8 +157,16 @@ std::string NetcdfFile::tooLarge(ValueType type, std::uint64_t points,
     return "";
 }
 
+std::string NetcdfFile::placeOf(const NcVariable& variable) const {
+    std::string place = "variable '" + variable.name + "'";
+    if (const auto missing = elsewhere_.missing.find(variable.name);
+        missing != elsewhere_.missing.end())
+        fail(place, "expected values of " + missing->second + ", which is not there");
+    return place;
+}
+
 std::vector<Number> NetcdfFile::numbers(const NcVariable& variable) const {
-    const std::string place = "variable '" + variable.name + "'";
+    const std::string place = placeOf(variable);
     double points = 1;
     for (std::size_t i = 0; i < variable.dimensions.size(); ++i)
         points *= static_cast<double>(header_.dimension(variable, i).length);
@@ -184,9 +191,10 @@ std::vector<Number> NetcdfFile::numbers(const NcVariable& variable) const {
 
 void NetcdfFile::read(const NcVariable& variable, std::span<const std::size_t> start,
                       std::span<const std::size_t> count, void* values) const {
+    const std::string place = placeOf(variable);
     const LibraryLock lock;
-    check(nc_get_vara(variable.groupId, variable.id, start.data(), count.data(), values),
-          "variable '" + variable.name + "'", "values that can be read");
+    check(nc_get_vara(variable.groupId, variable.id, start.data(), count.data(), values), place,
+          "values that can be read");
 }
 
 std::vector<std::string> NetcdfFile::lines(std::string_view name) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "timeseries/readers/cf/cf_file.h"
+#include "timeseries/readers/netcdf/hdf5_elsewhere.h"
 
 namespace timeseries {
 
@@ -52,12 +53,14 @@ class NetcdfFile final : public CfFile {
     void readGroupAttributes(int group, const std::string& name);
     std::optional<NcAttribute> readAttribute(int group, int variable, int number,
                                              const std::string& place) const;
+    // Of a variable that is read, for errors. Throws where values that belong to it are not there.
+    std::string placeOf(const NcVariable& variable) const;
     void check(int status, std::string_view place, std::string_view expected) const;
 
     std::uint64_t fileBytes_ = 0;
     int id_ = -1;
-    bool hasValuesElsewhere_ = false;  // in other files, which may change while it does not
-    std::vector<int> dimensionIds_;    // the library's, beside header_.dimensions
+    Hdf5Elsewhere elsewhere_;
+    std::vector<int> dimensionIds_;  // the library's, beside header_.dimensions
 };
 
 }  // namespace timeseries
