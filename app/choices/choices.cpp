@@ -127,7 +127,9 @@ constexpr std::array kChoices = {
                return ofSweep(e, [](const auto& s) { return numberText(s.delta); });
            },
            [](Explorer& e, std::string_view t) { swept(e).delta = number(t, 0, kMostFinite); },
-           "Sweep", "Half the swept window's width"},
+           "Sweep",
+           "Half the swept window's width (0: a value alone, which cells show and points hardly "
+           "ever have)"},
     Choice{"--timer-steps", "sweep.timerSteps", Form::Whole,
            [](const Explorer& e) {
                return ofSweep(e, [](const auto& s) { return wholeText(s.timerSteps); });

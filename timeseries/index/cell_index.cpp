@@ -4,7 +4,6 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <numeric>
 #include <type_traits>
@@ -169,20 +168,24 @@ CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
         std::uint32_t cell, key;
         std::uint16_t ofClass;
     };
-    std::vector<std::deque<Found>> found(threads);
+    constexpr std::size_t kAtOnce = (kWorthLargePages + sizeof(Found) - 1) / sizeof(Found);
+    std::vector<std::vector<std::vector<Found>>> found(threads);
     // How many of each class a thread has, then where its first goes.
     std::vector<std::vector<std::uint64_t>> next(threads, std::vector<std::uint64_t>(kClasses));
     sharing(threads, [&](unsigned k) {
         look(k, [&](std::uint64_t cell, std::size_t of, std::uint32_t key) {
             ++next[k][of];
             if (wanted.isAll()) return;
-            found[k].push_back(
+            if (found[k].empty() || found[k].back().size() == kAtOnce)
+                found[k].emplace_back().reserve(kAtOnce);
+            found[k].back().push_back(
                 {static_cast<std::uint32_t>(cell), key, static_cast<std::uint16_t>(of)});
         });
     });
     const auto forEachCell = [&](unsigned k, const auto& use) {
         if (wanted.isAll()) return look(k, use);
-        for (const Found& each : found[k]) use(each.cell, each.ofClass, each.key);
+        for (const std::vector<Found>& some : found[k])
+            for (const Found& each : some) use(each.cell, each.ofClass, each.key);
         found[k] = {};
     };
     std::uint64_t first = 0;
