@@ -13,6 +13,7 @@
 
 #include "app/choices/choice_text.h"
 #include "app/choices/clip_flaw.h"
+#include "app/choices/decimals.h"
 #include "app/choices/first_choice.h"
 #include "app/choices/layer_colors.h"
 
@@ -79,8 +80,7 @@ std::optional<double> valuePassed(const SortedStep& step, double from, End end, 
     const auto next = beyond(false);
     if (!next || !std::isfinite(*next)) return std::nullopt;
     // As it is written: the shortest text that means it.
-    return std::stod(floats ? fmt::format("{}", static_cast<float>(*next))
-                            : fmt::format("{}", *next));
+    return floats ? shortestIn(timeseries::ValueType::F32, *next) : *next;
 }
 
 // Short enough for a field; floats that were stored as such read as they were written.

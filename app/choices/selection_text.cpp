@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "app/choices/decimals.h"
+
 namespace app {
 namespace {
 
@@ -51,7 +53,7 @@ std::uint64_t atMost(double share, std::uint64_t points) {
 timeseries::Number valueAt(const SortedStep& step, std::uint64_t point) {
     const timeseries::Number value = step.value(point);
     if (step.type() != timeseries::ValueType::F32) return value;
-    return std::stod(fmt::format("{}", static_cast<float>(timeseries::toDouble(value))));
+    return shortestIn(step.type(), timeseries::toDouble(value));
 }
 
 // The quantiles as a range of values; none where the text is not one. REQUIRES: a point.

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/command/commands.h"
@@ -79,11 +81,14 @@ ordered_json json(const Dataset& dataset, const std::vector<RangeSet>& layers,
     ordered_json out{{"file", dataset.name},
                      {"variable", dataset.variable.name},
                      {"units", dataset.variable.units},
+                     {"timeName", dataset.variable.time->name},
                      {"timeUnits", dataset.variable.time->units},
                      {"layers", ordered_json::array()}};
     for (const RangeSet& layer : layers) out["layers"].push_back(json(layer));
     if (!dataset.series.recognised.empty()) out["series"] = dataset.series.recognised;
-    if (!dataset.series.notes.empty()) out["notes"] = dataset.series.notes;
+    std::vector<std::string> notes = dataset.series.notes;
+    std::ranges::copy(dataset.variable.notes, std::back_inserter(notes));
+    if (!notes.empty()) out["notes"] = notes;
     for (const Row& row : rows) out["steps"].push_back(json(dataset, row));
     return out;
 }

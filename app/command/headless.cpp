@@ -115,22 +115,20 @@ MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSourc
 // Writes a picture while the next one is drawn.
 class WritingBeside {
  public:
-    // `told`: when the picture is in its file. Throws what the one before threw.
-    void write(DrawnStill drawn, std::function<void()> told) {
+    // `tell`: when the picture is in its file, on another thread. Throws what the one before threw.
+    void write(DrawnStill drawn, std::function<void()> tell) {
         wait();
-        told_ = std::move(told);
-        written_ = std::async(std::launch::async, [drawn = std::move(drawn)]() mutable {
-            app::write(std::move(drawn));
-        });
+        written_ = std::async(std::launch::async,
+                              [drawn = std::move(drawn), tell = std::move(tell)]() mutable {
+                                  app::write(std::move(drawn));
+                                  tell();
+                              });
     }
     void wait() {
-        if (!written_.valid()) return;
-        written_.get();
-        told_();
+        if (written_.valid()) written_.get();
     }
 
  private:
-    std::function<void()> told_;
     std::future<void> written_;
 };
 

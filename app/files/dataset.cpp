@@ -99,11 +99,32 @@ std::size_t decimalsOf(std::string_view number) {
     return point == number.npos || number.find('e') != number.npos ? 0 : number.size() - point - 1;
 }
 
+// Ten digits, or as many more as tell a time from those beside it; where all are whole, all of
+// them.
+int digitsOf(const timeseries::TimeAxis& axis, std::size_t step) {
+    constexpr double kUsual = 10, kMost = 15;
+    const auto isWhole = [](const timeseries::TimePoint& p) {
+        return std::abs(p.value) < 1e15 && p.value == std::floor(p.value);
+    };
+    if (std::ranges::all_of(axis.points, isWhole)) return kMost;
+    const double value = axis.points[step].value;
+    double gap = std::abs(value);
+    for (const std::size_t beside : {step - 1, step + 1})  // of the first, one is beyond all
+        if (beside < axis.points.size())
+            if (const double far = std::abs(value - axis.points[beside].value); far > 0)
+                gap = std::min(gap, far);
+    if (!(gap > 0 && std::isfinite(value))) return kUsual;
+    return static_cast<int>(
+        std::clamp(std::ceil(std::log10(std::abs(value) / gap)) + 1, kUsual, kMost));
+}
+
 // With as many decimals as the others of the axis, so that a movie's do not jump. Of even steps the
 // first two have the most that any has; many come from rounding, and are as they are.
 std::string numberText(const timeseries::TimeAxis& axis, std::size_t step) {
     constexpr std::size_t kMost = 6;
-    const auto text = [&](std::size_t i) { return fmt::format("{:.10g}", axis.points[i].value); };
+    const auto text = [&](std::size_t i) {
+        return fmt::format("{:.{}g}", axis.points[i].value, digitsOf(axis, i));
+    };
     std::string number = text(step);
     std::size_t decimals = 0;
     for (const std::size_t i : {std::size_t{0}, std::size_t{1}, axis.points.size() - 1})

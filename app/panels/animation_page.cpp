@@ -110,11 +110,9 @@ void AnimationPage::time(PanelContext& context, Form& form) {
             segmented(theme, "way", way, kDirections, static_cast<std::size_t>(now.direction)))
         change([&](auto& t) { t.direction = static_cast<timeseries::Direction>(*chosen); });
     text(theme, {stride.min.x - 8 * s, stride.centre().y}, "every", kDim, 1, theme.small);
-    if (const auto value = numberField(context, stride_, "##stride", stride, "the number of steps",
-                                       static_cast<double>(now.stride)))
-        change([&](auto& t) {
-            t.stride = static_cast<std::size_t>(std::clamp(std::round(*value), 1.0, 1e9));
-        });
+    if (const auto count = countField(context, stride_, "##stride", stride, "the number of steps",
+                                      static_cast<std::int64_t>(now.stride)))
+        change([&](auto& t) { t.stride = static_cast<std::size_t>(*count); });
     if (const auto ending = segmented(theme, "ending", form.row("At the end"), kEndings,
                                       static_cast<std::size_t>(now.ending)))
         change([&](auto& t) { t.ending = static_cast<timeseries::Ending>(*ending); });
@@ -144,21 +142,14 @@ void AnimationPage::sweep(PanelContext& context, Form& form) {
                                     static_cast<std::size_t>(now.path)))
         edit(context, {},
              [&](Explorer& e) { sweepOf(e)->path = static_cast<timeseries::SweepPath>(*path); });
-    const auto whole = [&](TextField& field, const char* id, const Rect& at, std::string_view what,
-                           std::int64_t& value) {
-        const auto entered = numberField(context, field, id, at, what, static_cast<double>(value));
-        if (!entered) return false;
-        value = static_cast<std::int64_t>(std::clamp(std::round(*entered), 0.0, 2e9));
-        return true;
-    };
-    std::int64_t timerSteps = now.timerSteps, step = now.step;
     const Rect timer = form.row("Steps a cycle");
-    if (whole(timerSteps_, "##timer", part(timer, 0, 3, s), "the number of steps", timerSteps))
-        editSweep(context, timerSteps_, [&](auto& sweep) { sweep.timerSteps = timerSteps; });
+    if (const auto count = countField(context, timerSteps_, "##timer", part(timer, 0, 3, s),
+                                      "the number of steps", now.timerSteps))
+        editSweep(context, timerSteps_, [&](auto& sweep) { sweep.timerSteps = *count; });
     const Rect by = part(timer, 2, 3, s);
     text(theme, {by.min.x - 12 * s, by.centre().y}, "by", kDim, 1);
-    if (whole(step_, "##step", by, "the step", step))
-        editSweep(context, step_, [&](auto& sweep) { sweep.step = step; });
+    if (const auto count = countField(context, step_, "##step", by, "the step", now.step))
+        editSweep(context, step_, [&](auto& sweep) { sweep.step = *count; });
     const Rect frequency = form.row("Cycles / s");
     if (const auto value = numberField(context, frequency_, "##frequency", part(frequency, 0, 3, s),
                                        "the number of cycles a second", now.frequency))

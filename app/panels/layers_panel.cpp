@@ -78,7 +78,7 @@ void LayersPanel::draw(PanelContext& context, const Rect& at) {
     if (shown && count == 0)
         text(context.theme, {left, list.min.y + 10 * s}, "No layer: nothing is drawn. + adds one.",
              kDim, 0, context.theme.small);
-    const bool grown = count > texts_.size();
+    const bool grown = count > 1 && count == texts_.size() + 1;
     texts_.resize(count);
     const glm::vec2 top = vec(ImGui::GetCursorScreenPos());
     // A row may remove itself: the rest waits for the next frame.

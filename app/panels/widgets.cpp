@@ -180,6 +180,7 @@ bool rangeSlider(const Theme& theme, const char* id, const Rect& at, double& lo,
     }
     bool changed = false;
     if (p.held) {
+        if (lo == hi && mouse != lo) storage.SetBool(key, mouse > hi);  // whichever can go there
         double& end = storage.GetBool(key) ? hi : lo;
         const double t = storage.GetBool(key) ? std::max(mouse, lo) : std::min(mouse, hi);
         changed = t != end;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "app/choices/choice_text.h"
@@ -139,6 +140,10 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
         if (const auto* byValue = std::get_if<render::ByValue>(&told.style.color)) {
             const Extent ends = finiteEnds(span, {byValue->lo, byValue->hi});
             told.shown.emplace(ends.lo, ends.hi);
+            constexpr double kEndless = std::numeric_limits<double>::infinity();
+            const Extent open = finiteEnds(span, {-kEndless, kEndless});
+            told.openBelow = std::isinf(open.lo);
+            told.openAbove = std::isinf(open.hi);
         }
     };
     for (const LayerChoice& layer : e.layers) {

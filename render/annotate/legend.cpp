@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <glm/common.hpp>
 
 #include "render/annotate/axes.h"
@@ -87,8 +88,8 @@ class Writer {
         std::string words;
         if (byValue(layer) && !detail.scales) {
             const Bar shown = barOf(layer);
-            words = endText(shown, shown.lo);
-            if (shown.hi > shown.lo) words += " \u2013 " + endText(shown, shown.hi);
+            words = shown.below + endText(shown, shown.lo);
+            if (shown.hi > shown.lo) words += " \u2013 " + shown.above + endText(shown, shown.hi);
         }
         if (detail.amounts && !layer.amount.empty())
             words += (words.empty() ? "" : ", ") + layer.amount;
@@ -154,7 +155,11 @@ class Writer {
             }
         }
         const auto notes = noteLines(detail);
-        y = size_.y - margin_ - line_ * static_cast<float>(notes.size());
+        const float bottom = size_.y - margin_ - line_ * static_cast<float>(notes.size());
+        if (!detail.layers && !legend_.layers.empty() && y + line_ < bottom)
+            text(label_, fmt::format("{} layers: no room for their legend", legend_.layers.size()),
+                 {margin_, y}, wide(), kQuiet);
+        y = bottom;
         for (const std::string& line : notes) {
             text(label_, line, {margin_, y}, wide(), kFaint);
             y += line_;
@@ -165,7 +170,8 @@ class Writer {
         const float width = textWidth(layer, detail);
         const float left = margin_ + column_ - width;
         if (!byValue(layer) || !detail.scales) drawSwatch(layer, swatchWidth(layer, detail), top);
-        text(label_, layer.range, {left, top}, width, kText);
+        // All of what is selected is told, though it be wider than the column.
+        text(label_, layer.range, {left, top}, size_.x - margin_ - left, kText);
         float y = top + line_;
         const std::string words = aside(layer, detail);
         if (isBelow(layer, detail)) {
@@ -204,11 +210,12 @@ class Writer {
     struct Bar {
         ByValue style;
         double lo, hi;
+        std::string below, above;  // before the numbers of its ends
     };
     static Bar barOf(const LegendLayer& layer) {
         const auto& style = std::get<ByValue>(layer.style.color);
         const auto [lo, hi] = layer.shown.value_or(std::pair(style.lo, style.hi));
-        return {style, lo, hi};
+        return {style, lo, hi, layer.openBelow ? "\u2264 " : "", layer.openAbove ? "\u2265 " : ""};
     }
 
     // Framed: the dark end of many maps is the background's colour.
@@ -233,11 +240,13 @@ class Writer {
         const auto widthOf = [&](const std::string& words) {
             return font_.measure(words, label_).x;
         };
-        const std::string lo = endText(shown, shown.lo);
+        const std::string least = endText(shown, shown.lo), lo = shown.below + least;
         // Where the bar is too short for both, the upper's last digits still tell them apart.
         const std::string hi =
-            withoutCommonStart({lo, endText(shown, shown.hi)}, [&](const auto& end) {
-                return end == lo || widthOf(end) + 0.5f * gap + widthOf(lo) <= width;
+            shown.above +
+            withoutCommonStart({least, endText(shown, shown.hi)}, [&](const auto& end) {
+                return end == least ||
+                       widthOf(shown.above + end) + 0.5f * gap + widthOf(lo) <= width;
             })[1];
         if (!(shown.hi > shown.lo)) {
             text(label_, lo, {from.x, below}, width, kQuiet);
@@ -274,7 +283,8 @@ class Writer {
         if (span > 0 && value != 0) {
             const auto exponent = [](double x) { return std::floor(std::log10(std::abs(x))); };
             const int digits = static_cast<int>(exponent(value) - exponent(span)) + 3;
-            shown = digits < 0 ? 0 : std::stod(fmt::format("{:.{}e}", value, std::min(digits, 16)));
+            const std::string text = fmt::format("{:.{}e}", value, std::clamp(digits, 0, 16));
+            shown = digits < 0 ? 0 : std::strtod(text.c_str(), nullptr);
         }
         return tickTexts(std::array{shown})[0];
     }

@@ -17,6 +17,8 @@ struct LegendLayer {
     std::string amount;  // "13,402 points, 6.2 %"
     // The values that a colour bar covers, in order; the map's ends where absent.
     std::optional<std::pair<double, double>> shown = {};
+    // Of a range without an end: the bar's end has the colour of all that lies beyond it, too.
+    bool openBelow = false, openAbove = false;
 };
 
 struct Legend {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <glm/common.hpp>
 
 #include "render/annotate/ticks.h"
@@ -24,7 +25,7 @@ std::string unitOf(const Axis& of) {
 
 // To three digits.
 std::string numberText(double number) {
-    const double rounded = std::stod(fmt::format("{:.3g}", number));
+    const double rounded = std::strtod(fmt::format("{:.3g}", number).c_str(), nullptr);
     return tickTexts(std::array{rounded})[0];
 }
 

@@ -54,6 +54,23 @@ TEST(TimeText, HasAsManyDecimalsAsItsNeighbours) {
     EXPECT_EQ(timeText(uneven, 2), "1.125 s") << "no digit of its own is lost";
 }
 
+TEST(TimeText, TellsTimesApartHoweverFarTheyAreFromNought) {
+    using Points = std::vector<timeseries::TimePoint>;
+    const TimeAxis stamps{"number", "", "",
+                          Points{{20000131123000, ""}, {20000131123100, ""}, {20000131123230, ""}}};
+    EXPECT_EQ(timeText(stamps, 1), "number 20000131123100");
+    const TimeAxis seconds{"time", "s", "",
+                           Points{{12345678901.5, ""}, {12345678902.5, ""}, {12345678903.5, ""}}};
+    EXPECT_EQ(timeText(seconds, 0), "12345678901.5 s");
+    EXPECT_EQ(timeText(seconds, 2), "12345678903.5 s");
+    const TimeAxis fine{"time", "s", "", Points{{1700000000.0001, ""}, {1700000000.0002, ""}}};
+    EXPECT_EQ(timeText(fine, 0), "1700000000.0001 s");
+    EXPECT_EQ(timeText(fine, 1), "1700000000.0002 s");
+    // Which step of rounding it is, nobody is told.
+    const TimeAxis rounded{"time", "s", "", Points{{0.1 + 0.2, ""}, {0.3, ""}}};
+    EXPECT_EQ(timeText(rounded, 0), "0.3 s");
+}
+
 TEST(TimeText, KeepsTheDigitsOfStoredFloats) {
     const TimeAxis axis{"time", "s", "", {{0.1, ""}, {1.0 / 3, ""}, {1234567.5, ""}, {1e300, ""}}};
     EXPECT_EQ(timeText(axis, 0), "0.1 s");

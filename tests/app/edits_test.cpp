@@ -174,6 +174,15 @@ std::uint64_t countOf(const std::vector<float>& values, double lo, double hi) {
         values, [&](float value) { return oracle::holds(range.ranges(), value); }));
 }
 
+TEST(SteppedEnd, PassesDenormalValuesToo) {
+    std::vector<double> values(27);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = 1e-310 * static_cast<double>(i + 1);
+    const auto step = timeseries::SortedStep::build({tests::cube(3), values, {}});
+    const double end = steppedEnd(step, values[4], End::Hi, 1, 1e-311);
+    EXPECT_GE(end, values[5]);
+    EXPECT_LT(end, values[6]);
+}
+
 TEST(SteppedEnd, SelectsOtherPointsWithEveryStep) {
     std::mt19937_64 random(3);
     // Crowded in places, wide apart in others, and ties.

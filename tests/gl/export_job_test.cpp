@@ -1,5 +1,6 @@
 #include "app/exploration/export_job.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,6 +76,8 @@ TEST(ExportJobOfTheProgram, LeavesWholePicturesOnlyWhenCancelled) {
     pollToEnd(job);
     EXPECT_EQ(job.state(), State::Cancelled);
     EXPECT_GE(namesIn(folder).size(), 2u);
+    EXPECT_THAT(job.outcome(), testing::StartsWith(fmt::format("Export cancelled after {} of ",
+                                                               namesIn(folder).size())));
     for (const std::string& name : namesIn(folder)) {
         EXPECT_THAT(name, testing::EndsWith(".png"));
         EXPECT_NO_THROW(readSession(folder / name)) << name;

@@ -6,7 +6,7 @@ if(NOT code EQUAL 0)
   fail("count failed")
 endif()
 
-expectMembers("${out}" file STRING variable STRING units STRING timeUnits STRING layers ARRAY
+expectMembers("${out}" file STRING variable STRING units STRING timeName STRING timeUnits STRING layers ARRAY
               steps ARRAY)
 string(JSON layerCount LENGTH "${out}" layers)
 if(NOT layerCount EQUAL ${LAYERS})

@@ -80,6 +80,50 @@ TEST(Legend, ABarTooShortForTheDigitsOfBothEndsTellsThemApart) {
     EXPECT_TRUE(ends(below, "\u2212", "9007199254740992"));
 }
 
+// What lies beyond has the colour of the end.
+TEST(Legend, EndsOfARangeWithoutAnEndSayThatTheyStandForMore) {
+    const glm::ivec2 size(1024, 1024);
+    Legend legend{"", "", {{byValue(-5, 6), "", ""}}, {}};
+    for (const bool below : {false, true})
+        for (const bool above : {false, true}) {
+            legend.layers[0].openBelow = below;
+            legend.layers[0].openAbove = above;
+            const FlatMesh mesh = legendMesh(legend, fontFor(size), size);
+            EXPECT_EQ(find(mesh, size, "\u2264 \u22125").has_value(), below);
+            EXPECT_EQ(find(mesh, size, "\u2265 6").has_value(), above);
+            EXPECT_TRUE(find(mesh, size, "\u22125") && find(mesh, size, "6"));
+        }
+}
+
+TEST(Legend, ABarOfDenormalNumbersHasThemAtItsEnds) {
+    const glm::ivec2 size(1024, 1024);
+    const FlatMesh mesh =
+        legendMesh({"", "", {{byValue(1e-310, 3e-310), "", ""}}, {}}, fontFor(size), size);
+    EXPECT_TRUE(find(mesh, size, "1×10⁻³¹⁰"));
+    EXPECT_TRUE(find(mesh, size, "3×10⁻³¹⁰"));
+}
+
+TEST(Legend, RangesAreToldWholeWhereThePictureIsWideEnough) {
+    const glm::ivec2 size(1200, 900);
+    Legend legend = fire();
+    const std::string all =
+        "\u22120.004 to \u22120.003, \u22120.002 to \u22120.001, 0.001 to 0.002, 0.003 to 0.004 m";
+    legend.layers[0].range = all;
+    EXPECT_TRUE(find(legendMesh(legend, fontFor(size), size), size, all));
+}
+
+TEST(Legend, SaysThatItsLayersHaveNoRoom) {
+    Legend legend = fire();
+    while (legend.layers.size() < 8) legend.layers.push_back(legend.layers[0]);
+    for (int height = 600; height >= 120; --height) {
+        const glm::ivec2 size(500, height);
+        const FlatMesh mesh = legendMesh(legend, fontFor(size), size);
+        EXPECT_NE(find(mesh, size, "600:1600 K").has_value(),
+                  find(mesh, size, "8 layers: no room for their legend").has_value())
+            << height;
+    }
+}
+
 TEST(Legend, AMapOfOneValueShowsItsMiddle) {
     const glm::ivec2 size(1024, 1024);
     const FlatMesh mesh = legendMesh({"", "", {{byValue(7, 7), "", ""}}, {}}, fontFor(size), size);

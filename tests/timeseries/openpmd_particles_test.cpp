@@ -155,7 +155,7 @@ TEST(OpenPmdParticles, NumbersThatDoNotFitAreRefused) {
                     weigh(f);
                     f.say(p + "position/x", "unitSI", 0.0);
                 }),
-                HasSubstr("expected particles that take space"));
+                HasSubstr("expected unitSI, a number that is not 0"));
     EXPECT_THAT(told([&](File f) {
                     weigh(f);
                     f.put("data/4/particles/p/position/x", std::vector<double>{1, 2, 3});

@@ -91,19 +91,58 @@ TEST(Scattered, FewPointsStandForSomething) {
     }
 }
 
-// Nowhere, or so many in one place that nothing is left for each.
-TEST(Scattered, WhatHasNoSpaceIsNotDrawn) {
+TEST(Scattered, WhatIsNowhereIsNotDrawn) {
     Places places = randomPlaces(100, {0, 0, 0}, {1, 1, 1});
     const double nan = std::numeric_limits<double>::quiet_NaN();
     places[7].y = nan;
-    for (int i = 0; i < 40; ++i) places.emplace_back(0.5, 0.5, 0.5);
     const Mesh mesh = meshOfScattered(places);
     EXPECT_EQ(mesh.absent(), 1u);
-    EXPECT_EQ(mesh.flat(), 40u);
+    EXPECT_EQ(mesh.flat(), 0u);
     EXPECT_GT(tests::volume(mesh, 8), 0);
     EXPECT_THROW(meshOfScattered(Places{{nan, 0, 0}}), std::invalid_argument);
-    EXPECT_THROW(meshOfScattered(Places(50, glm::dvec3(1))), std::invalid_argument);
     EXPECT_THROW(meshOfScattered(Places{}), std::invalid_argument);
+}
+
+// Readings of one station, particles set free at one place: as many as there are, in any order.
+TEST(Scattered, PointsAtOnePlaceShareWhatReachesAnother) {
+    for (const std::size_t count : {17u, 40u, 100000u}) {
+        Places places = randomPlaces(100, {0, 0, 0}, {1, 1, 1});
+        const glm::dvec3 station(0.5);
+        double nearest = 2;
+        for (const glm::dvec3& each : places)
+            nearest = std::min(nearest, glm::distance(each, station));
+        for (std::size_t i = 0; i < count; ++i)
+            places.insert(places.begin() + static_cast<std::ptrdiff_t>(i % 50), station);
+        const Mesh mesh = meshOfScattered(places);
+        EXPECT_EQ(mesh.flat(), 0u);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            if (places[i] == station) {
+                ASSERT_NEAR(tests::volume(mesh, i) * static_cast<double>(count),
+                            4 * M_PI / 3 * std::pow(nearest, 3), 1e-5)
+                    << i;
+            } else {
+                ASSERT_GT(tests::volume(mesh, i), 0) << i;
+            }
+    }
+}
+
+// A pair that nothing else is nearer to is two of the 16.
+TEST(Scattered, APairCountsTwice) {
+    Places places = randomPlaces(60, {0, 0, 0}, {1, 1, 1});
+    places.push_back(places[0]);
+    const Mesh mesh = meshOfScattered(places);
+    std::vector<double> distances;
+    for (const glm::dvec3& each : places) distances.push_back(glm::distance(each, places[5]));
+    std::ranges::sort(distances);
+    EXPECT_NEAR(tests::volume(mesh, 5), 4 * M_PI / 3 * std::pow(distances[16], 3) / 16, 1e-6);
+    EXPECT_EQ(tests::volume(mesh, 0), tests::volume(mesh, 60));
+}
+
+TEST(Scattered, AllAtOnePlaceStandForOneTogether) {
+    for (const std::size_t count : {2u, 50u}) {
+        const Places places(count, glm::dvec3(3, 4, 5));
+        EXPECT_NEAR(tests::volume(meshOfScattered(places)), 1, 1e-6) << count;
+    }
 }
 
 }  // namespace

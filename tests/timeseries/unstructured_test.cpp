@@ -180,6 +180,24 @@ TEST(Unstructured, PointsWithoutACellOrWithAFlatOneAreTold) {
                 ElementsAre("2 of 4 points are not drawn: their cells have no volume"));
 }
 
+// As nodes that a mesher left over, at places that stand for none.
+TEST(Unstructured, PointsOfNoCellDoNotWidenTheBox) {
+    const auto at = [](double i, double j, double k) { return 0.1 * glm::dvec3(i, j, k); };
+    const UnstructuredGrid grid = bricks({4, 3, 3}, Cut::Hexahedra, at);
+    UnstructuredGrid more = grid;
+    for (const double far : {-5.0, 1e7, 1e20}) more.points.push_back(glm::dvec3(far));
+    ASSERT_EQ(flawOf(more), "");
+    const Mesh points = tests::atPoints(grid), withMore = tests::atPoints(more);
+    EXPECT_EQ(withMore.lo(), points.lo());
+    EXPECT_EQ(withMore.hi(), points.hi());
+    for (std::uint64_t i = 0; i < points.count(); ++i) {
+        EXPECT_EQ(withMore.position(i), points.position(i));
+        EXPECT_EQ(tests::volume(withMore, i), tests::volume(points, i));
+    }
+    EXPECT_EQ(withMore.about().apart, 3u);
+    EXPECT_EQ(tests::atCells(more), tests::atCells(grid));
+}
+
 // Two rectangles of 3 x 2 each: as thick as the root of 6.
 TEST(Unstructured, SurfacesAndLinesAreAsThickAsTheyAreWide) {
     UnstructuredGrid surface;

@@ -123,6 +123,17 @@ TEST(VtkParts, GhostCellsAreMissing) {
     writeBytes(folder / "parts.pvtu", listOf("UnstructuredGrid", "GhostLevel=\"1\"",
                                              {"Source=\"a.vtu\"", "Source=\"c.vtu\""}));
     EXPECT_EQ(byPlace(folder / "parts.pvtu", "c"), byPlace(folder / "whole.vtu", "c"));
+    // What is at points fills what the own cells do, once; the last four are of the ghost alone.
+    const auto reader = open(folder / "parts.pvtu");
+    const auto found = std::ranges::find(reader->variables(), "p", &Variable::name);
+    ASSERT_NE(found, reader->variables().end());
+    const Mesh& mesh = *found->grid->mesh();
+    double volume = 0;
+    for (std::uint64_t i = 0; i < mesh.count(); ++i) volume += tests::volume(mesh, i);
+    EXPECT_NEAR(volume, 5, 1e-6);
+    EXPECT_EQ(mesh.count(), 16u + 16u);
+    EXPECT_EQ(mesh.about().apart, 4u);
+    EXPECT_EQ(mesh.solids()->count(), 5u);
 }
 
 // As VTK takes them, whichever part stands first.

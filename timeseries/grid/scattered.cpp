@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <nanoflann.hpp>
 #include <numbers>
+#include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "timeseries/together.h"
 
@@ -15,9 +18,10 @@ namespace {
 constexpr std::size_t kNearest = 16;
 constexpr std::size_t kPointsAThread = 1 << 10;
 
-// The points that are somewhere, as the tree asks for them.
+// The places at which there are points, each once, as the tree asks for them.
 struct Places {
     std::vector<glm::dvec3> at;
+    std::vector<std::uint64_t> points;  // there
     std::size_t kdtree_get_point_count() const { return at.size(); }
     double kdtree_get_pt(std::size_t i, std::size_t c) const { return at[i][static_cast<int>(c)]; }
     template <class Box>
@@ -28,23 +32,49 @@ struct Places {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Places>,
                                                  Places, 3, std::uint32_t>;
 
-// What each stands for; of one point alone 1. REQUIRES: finite places, at least one.
+// Of the points that are somewhere, which of the places each is at.
+std::pair<Places, std::vector<std::uint32_t>> placesOf(std::span<const glm::dvec3> at) {
+    std::vector<std::uint32_t> order;
+    for (std::size_t i = 0; i < at.size(); ++i)
+        if (isPlace(at[i])) order.push_back(static_cast<std::uint32_t>(i));
+    std::ranges::sort(order, {},
+                      [&](std::uint32_t i) { return std::tuple(at[i].x, at[i].y, at[i].z); });
+    Places places;
+    std::vector<std::uint32_t> placeOf(at.size());
+    for (const std::uint32_t i : order) {
+        if (places.at.empty() || places.at.back() != at[i]) {
+            places.at.push_back(at[i]);
+            places.points.push_back(0);
+        }
+        ++places.points.back();
+        placeOf[i] = static_cast<std::uint32_t>(places.at.size() - 1);
+    }
+    return {std::move(places), std::move(placeOf)};
+}
+
+// What each point of a place stands for; all of one place alone, for 1. REQUIRES: at least one.
 std::vector<double> volumesOf(const Places& places) {
-    const std::size_t near = std::min(kNearest, places.at.size() - 1);
-    std::vector<double> volumes(places.at.size(), 1.0);
-    if (near == 0) return volumes;
+    const std::uint64_t all =
+        std::accumulate(places.points.begin(), places.points.end(), std::uint64_t{0});
+    if (places.at.size() == 1) return {1 / static_cast<double>(all)};
+    const std::uint64_t near = std::min<std::uint64_t>(kNearest, all - 1);
+    std::vector<double> volumes(places.at.size());
     const Tree tree(3, places);
     inParts(volumes.size(), threadsFor(volumes.size(), kPointsAThread),
             [&](std::size_t first, std::size_t last) {
-                // The point itself is among those that are found.
+                // The place itself is among those that are found.
                 std::array<std::uint32_t, kNearest + 1> found;
                 std::array<double, kNearest + 1> squares;
-                for (std::size_t point = first; point < last; ++point) {
+                for (std::size_t place = first; place < last; ++place) {
                     const std::size_t count =
-                        tree.knnSearch(&places.at[point].x, near + 1, found.data(), squares.data());
-                    const double reach = std::sqrt(squares[count - 1]);
+                        tree.knnSearch(&places.at[place].x, near + 1, found.data(), squares.data());
+                    std::size_t farthest = 0;
+                    std::uint64_t others = places.points[found[0]] - 1;
+                    while (farthest + 1 < count && (others < near || farthest == 0))
+                        others += places.points[found[++farthest]];
+                    const double reach = std::sqrt(squares[farthest]);
                     const double ball = 4 * std::numbers::pi / 3 * reach * reach * reach;
-                    volumes[point] = std::isfinite(ball) ? ball / static_cast<double>(near) : 0;
+                    volumes[place] = std::isfinite(ball) ? ball / static_cast<double>(others) : 0;
                 }
             });
     return volumes;
@@ -66,15 +96,12 @@ Mesh meshOf(std::span<const glm::dvec3> at, const std::vector<double>& volumes, 
 }  // namespace
 
 Mesh meshOfScattered(std::span<const glm::dvec3> at) {
-    Places places;
-    for (const glm::dvec3& place : at)
-        if (isPlace(place)) places.at.push_back(place);
+    const auto [places, placeOf] = placesOf(at);
     std::vector<double> volumes(at.size());
     if (!places.at.empty()) {
-        const std::vector<double> own = volumesOf(places);
-        auto next = own.begin();
+        const std::vector<double> ofPlace = volumesOf(places);
         for (std::size_t i = 0; i < at.size(); ++i)
-            if (isPlace(at[i])) volumes[i] = *next++;
+            if (isPlace(at[i])) volumes[i] = ofPlace[placeOf[i]];
     }
     return meshOf(at, volumes, kScatteredSpread, MeshAbout::Points::Scattered);
 }

@@ -218,6 +218,29 @@ struct Stars {
     }
 };
 
+// Of a number of points, those that cells are of: what no cell has may lie anywhere.
+template <typename IsUsed>
+std::array<glm::dvec3, 2> boxOf(const UnstructuredGrid& grid, const IsUsed& isUsed) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::array<glm::dvec3, 2> box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
+    for (std::size_t p = 0; p < grid.points.size(); ++p) {
+        if (!isUsed(p) || !isPlace(grid.points[p])) continue;
+        box[0] = glm::min(box[0], grid.points[p]);
+        box[1] = glm::max(box[1], grid.points[p]);
+    }
+    return box;
+}
+
+std::array<glm::dvec3, 2> boxOf(const UnstructuredGrid& grid) {
+    std::vector<std::uint8_t> used(grid.points.size());
+    inParts(grid.corners.size(), threadsFor(grid.corners.size(), kCellsAThread),
+            [&](std::size_t first, std::size_t last) {
+                for (; first < last; ++first)
+                    std::atomic_ref(used[grid.corners[first]]).store(1, std::memory_order_relaxed);
+            });
+    return boxOf(grid, [&](std::size_t p) { return used[p] != 0; });
+}
+
 // Of all cells.
 Pages<CellMoments> momentsOf(const UnstructuredGrid& grid, const UnstructuredShapes& shapes) {
     const std::size_t cells = grid.types.size();
@@ -278,8 +301,8 @@ Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
             makePrism(of.second, of.volume, levels, points[i]);
         }
     };
-    const std::span<const glm::dvec3> between =
-        grid.points.empty() ? std::span(places) : grid.points;
+    const auto box = boxOf(grid);
+    const std::span<const glm::dvec3> between = grid.points.empty() ? std::span(places) : box;
     Mesh mesh(cells, between, shapes.spread, tell, levels);
     mesh.setAbout(aboutOf(grid, MeshAbout::Points::Cells));
     return mesh;
@@ -296,8 +319,12 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
         const CellType* type = cellTypeOf(grid.types[cell]);
         return type && type->dimension == shapes.dimension && !(moments.data()[cell].volume > 0);
     };
+    const auto box = boxOf(grid, [&](std::size_t p) { return !stars.of(p).empty(); });
     const auto tellOne = [&](std::uint64_t index, MeshPoint& point) {
         point.at = grid.points[index];
+        // Nobody sees where it is, and the others' box is not to be as large.
+        if (isPlace(point.at) && stars.of(index).empty())
+            point.at = glm::clamp(point.at, box[0], box[1]);
         double volume = 0, whole = 0;
         bool hasFlat = false;
         glm::dmat3 second(0.0);
@@ -320,7 +347,7 @@ Mesh meshOfPoints(const UnstructuredGrid& grid, const UnstructuredShapes& shapes
     const auto tell = [&](std::uint64_t first, std::span<MeshPoint> points) {
         for (MeshPoint& point : points) tellOne(first++, point);
     };
-    Mesh mesh(count, grid.points, shapes.spread, tell, levels);
+    Mesh mesh(count, box, shapes.spread, tell, levels);
     if (levels.empty()) mesh.setSolids(SolidCells::of(grid, count));
     MeshAbout about = aboutOf(grid, MeshAbout::Points::Corners);
     about.apart = apart * mesh.size()[2];

@@ -4,6 +4,7 @@
 #include <glob.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <memory>
 
@@ -345,7 +346,7 @@ std::optional<std::vector<double>> ascendingNumbers(std::span<const Path> paths)
     std::vector<double> values;
     for (const std::string& number : series->numbers) {
         if (number.size() > 300) return std::nullopt;
-        values.push_back(std::stod(number));
+        values.push_back(std::strtod(number.c_str(), nullptr));
         if (values.size() > 1 && !(values[values.size() - 2] < values.back())) return std::nullopt;
     }
     return values;

@@ -54,6 +54,7 @@ std::vector<glm::dvec3> openPmdPlacesOf(const NetcdfFile& file,
             const auto* const along = find(components, names[static_cast<std::size_t>(c)]);
             if (!along) continue;
             const double unit = openPmdNumber(file, *along, *along->own, "unitSI", 1);
+            if (unit == 0) failComponent(file, *along, "expected unitSI, a number that is not 0");
             const auto numbers = asDoubles(openPmdValuesOf(file, *along, particles));
             for (std::uint64_t i = 0; i < particles; ++i) places[i][c] += unit * numbers[i];
         }

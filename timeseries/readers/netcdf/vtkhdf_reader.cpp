@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "timeseries/grid/without_cells.h"
 #include "timeseries/readers/components.h"
 #include "timeseries/readers/netcdf/netcdf_rows.h"
 #include "timeseries/readers/netcdf/vtkhdf_arrays.h"
@@ -46,7 +47,9 @@ class VtkHdfReader final : public Reader {
     void addArrays(bool atPoints);
     void add(ArrayOf source, const ComponentVariable& component);
     void open(std::size_t step);
-    std::shared_ptr<const Grid> gridAt(bool atPoints);
+    std::shared_ptr<const Grid> gridAt(std::size_t step, bool atPoints);
+    Mesh meshOfOwnPoints(std::size_t step) const;
+    std::vector<bool> ghostsOf(std::size_t step, bool atPoints, std::uint64_t count) const;
 
     std::vector<std::filesystem::path> paths_;
     std::unique_ptr<NetcdfFile> opened_;
@@ -55,6 +58,7 @@ class VtkHdfReader final : public Reader {
     std::shared_ptr<const TimeAxis> time_;
     // Of the step that is open.
     std::optional<VtkHdfStep> open_;
+    std::uint64_t ghostsAt_ = 0;  // where its cells' flags begin
     UnstructuredGrid cells_;
     std::optional<UnstructuredShapes> shapes_;
     std::array<std::shared_ptr<const Grid>, 2> grids_;  // at cells, at points
@@ -74,20 +78,39 @@ void VtkHdfReader::addTime() {
 
 void VtkHdfReader::open(std::size_t step) {
     const VtkHdfStep& wanted = layout_.steps()[step];
-    if (open_ == wanted) return;
+    const std::uint64_t ghostsAt =
+        vtkHdfGhosts(file_.header(), false) ? layout_.firstValue(step, false, kVtkHdfGhosts) : 0;
+    if (open_ == wanted && ghostsAt == ghostsAt_) return;
     open_.reset();
     shapes_.reset();
     grids_ = {};
     cells_ = layout_.gridOf(wanted);
     open_ = wanted;
+    ghostsAt_ = ghostsAt;
 }
 
-std::shared_ptr<const Grid> VtkHdfReader::gridAt(bool atPoints) {
+// What a ghost takes up is another cell's, or nobody's.
+Mesh VtkHdfReader::meshOfOwnPoints(std::size_t step) const {
+    const std::vector<bool> ghosts = ghostsOf(step, false, cells_.types.size());
+    if (std::ranges::find(ghosts, true) == ghosts.end()) return meshOfPoints(cells_, *shapes_);
+    const UnstructuredGrid own = withoutCells(cells_, ghosts);
+    return meshOfPoints(own, UnstructuredShapes(own));
+}
+
+std::vector<bool> VtkHdfReader::ghostsOf(std::size_t step, bool atPoints,
+                                         std::uint64_t count) const {
+    const NcVariable* const ghosts = vtkHdfGhosts(file_.header(), atPoints);
+    if (!ghosts) return {};
+    const std::uint64_t first = layout_.firstValue(step, atPoints, kVtkHdfGhosts);
+    return vtkHdfMissing(rowsOf(file_, *ghosts, first, count, 1), atPoints);
+}
+
+std::shared_ptr<const Grid> VtkHdfReader::gridAt(std::size_t step, bool atPoints) {
     auto& grid = grids_[atPoints ? 1 : 0];
     if (grid) return grid;
     if (!shapes_) shapes_.emplace(cells_);
     try {
-        const auto mesh = std::make_shared<const Mesh>(atPoints ? meshOfPoints(cells_, *shapes_)
+        const auto mesh = std::make_shared<const Mesh>(atPoints ? meshOfOwnPoints(step)
                                                                 : meshOfCells(cells_, *shapes_));
         return grid = std::make_shared<const Grid>(spaceAxes(), mesh);
     } catch (const std::invalid_argument& flaw) {
@@ -103,7 +126,7 @@ void VtkHdfReader::add(ArrayOf source, const ComponentVariable& component) {
     variable.storedAs = component.storedAs + (source.atPoints ? "" : ", at cells");
     if (vtkHdfGhosts(file_.header(), source.atPoints)) variable.missing = kVtkHdfMissing;
     open(0);
-    variable.grid = gridAt(source.atPoints);
+    variable.grid = gridAt(0, source.atPoints);
     variable.time = time_;
     variable.notes = notesOf(cells_);
     for (std::string& note : notesOf(*variable.grid->mesh()))
@@ -130,17 +153,14 @@ Field VtkHdfReader::read(std::size_t variable, std::size_t step) {
     open(step);
     const ArrayOf& source = sources_[variable];
     Field field;
-    field.grid = gridOfStep(variables_[variable].grid, gridAt(source.atPoints));
+    field.grid = gridOfStep(variables_[variable].grid, gridAt(step, source.atPoints));
     if (!field.grid) file_.fail("VTKHDF", "expected the steps of one series");
     const std::uint64_t count = field.grid->count();
     field.values = componentOf(
         rowsOf(file_, *source.array, layout_.firstValue(step, source.atPoints, source.name), count,
                source.component.of),
         source.component);
-    if (const NcVariable* const ghosts = vtkHdfGhosts(file_.header(), source.atPoints)) {
-        const std::uint64_t first = layout_.firstValue(step, source.atPoints, kVtkHdfGhosts);
-        field.missing = vtkHdfMissing(rowsOf(file_, *ghosts, first, count, 1), source.atPoints);
-    }
+    field.missing = ghostsOf(step, source.atPoints, count);
     return field;
 }
 

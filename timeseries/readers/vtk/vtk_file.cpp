@@ -26,6 +26,7 @@ bool isVtkSeries(const std::filesystem::path& path) {
 VtkHeader openVtkLegacy(const std::filesystem::path& path) {
     VtkHeader header = readVtkLegacyHeader(path);
     if (isStructured(header.kind)) header.places = readVtkFrame(header).places;
+    if (isUnstructured(header.kind)) header.ghostCells = readVtkGhostCells(header);
     return header;
 }
 
@@ -36,6 +37,7 @@ VtkHeader openVtkXml(const XmlFile& file) {
     header.places = std::move(frame.places);
     header.unstructured = std::move(frame.unstructured);
     header.time = frame.time;
+    if (isUnstructured(header.kind)) header.ghostCells = readVtkGhostCells(header);
     if (header.kind == VtkKind::XmlRectilinear)
         for (std::size_t i = 0; i < 3; ++i)
             if (header.coordinates[i].size() != header.size(VtkPlace::Points)[i])

@@ -42,6 +42,8 @@ void append(UnstructuredGrid& whole, UnstructuredGrid part, bool hasFaces) {
 void joinVtkCells(VtkHeader& whole, std::span<VtkHeader> parts) {
     const bool hasFaces = std::ranges::any_of(
         parts, [](const VtkHeader& part) { return !part.unstructured.faceEnds.empty(); });
+    const bool hasGhosts =
+        std::ranges::any_of(parts, [](const VtkHeader& part) { return !part.ghostCells.empty(); });
     for (const VtkHeader& part : parts)
         std::ranges::copy(part.pieces, std::back_inserter(whole.pieces));
     checkVtkCount(whole, "pieces");
@@ -50,7 +52,11 @@ void joinVtkCells(VtkHeader& whole, std::span<VtkHeader> parts) {
         if (const std::string flaw = flawOf(part.unstructured); !flaw.empty())
             failVtk(part.path, "Cells",
                     "expected cells of points that there are, found that " + flaw);
+        const std::size_t before = whole.unstructured.types.size();
         append(whole.unstructured, std::move(part.unstructured), hasFaces);
+        if (!hasGhosts) continue;
+        part.ghostCells.resize(whole.unstructured.types.size() - before);
+        std::ranges::copy(part.ghostCells, std::back_inserter(whole.ghostCells));
     }
 }
 

@@ -304,6 +304,23 @@ VtkFrame readVtkFrame(const VtkHeader& header) {
     return frame;
 }
 
+std::vector<bool> readVtkGhostCells(const VtkHeader& header) {
+    if (!header.ghosts[static_cast<std::size_t>(VtkPlace::Cells)]) return {};
+    VtkArray wanted;
+    wanted.name = "vtkGhostType";
+    wanted.place = VtkPlace::Cells;
+    const std::string place = fmt::format("'{}'", wanted.name);
+    const Arrays arrays = withVtk(header, place, [&] { return readArrays(header, wanted); });
+    const std::uint64_t count = header.count(VtkPlace::Cells);
+    std::vector<bool> ghosts;
+    if (!arrays.ghosts) return ghosts;
+    if (static_cast<std::uint64_t>(arrays.ghosts->GetNumberOfTuples()) != count)
+        failVtk(header.path, place,
+                fmt::format("expected {} values, but VTK reads something else", count));
+    takeVtkGhosts(*arrays.ghosts, VtkPlace::Cells, {{count, 1, 1}, {1, count, count}}, ghosts);
+    return ghosts;
+}
+
 void readVtkArray(const VtkHeader& header, const VtkArray& array, VtkPart part,
                   const StridedLayout& layout, Field& field) {
     const std::string place = fmt::format("'{}'", array.name);

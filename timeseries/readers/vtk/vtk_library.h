@@ -20,6 +20,10 @@ struct VtkFrame {
 // REQUIRES: an XML header, or one of a structured grid. Throws FileError.
 VtkFrame readVtkFrame(const VtkHeader& header);
 
+// Of cells that are listed, by vtkGhostType; none where it says that of no cell. REQUIRES: a header
+// of such. Throws FileError.
+std::vector<bool> readVtkGhostCells(const VtkHeader& header);
+
 // What a variable takes of an array's components.
 struct VtkPart {
     enum class Kind { Component, Magnitude } kind = Kind::Component;
