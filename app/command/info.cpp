@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/command/commands.h"
@@ -102,22 +103,31 @@ std::string frameText(const timeseries::CoordinateFrame& frame) {
                        place(frame.origin), place(d[0]), place(d[1]), place(d[2]));
 }
 
+// What lies between a number and the next that a double tells from it.
+double spacingAt(double value) {
+    return std::nextafter(std::abs(value), std::numeric_limits<double>::infinity()) -
+           std::abs(value);
+}
+
 // What the first and the last time do not tell; "" when times are even, or counted.
 std::string unevenText(const timeseries::TimeAxis& time) {
     if (time.counted) return "";
     const auto& points = time.points;
+    if (!std::ranges::all_of(points, [](const auto& p) { return std::isfinite(p.value); }))
+        return ", some missing";
     constexpr double kRounding = 1e-3;  // times written in few digits
     const double mean =
         (points.back().value - points.front().value) / static_cast<double>(points.size() - 1);
+    const double off = kRounding * std::abs(mean) + 2 * std::max(spacingAt(points.front().value),
+                                                                 spacingAt(points.back().value));
     bool ascending = true, twice = false, even = true;
     for (std::size_t i = 1; i < points.size(); ++i) {
         const double gap = points[i].value - points[i - 1].value;
         ascending = ascending && gap >= 0;
-        twice = twice || gap == 0;
-        even = even && std::abs(gap - mean) <= kRounding * std::abs(mean);
+        // Nanoseconds since 1970 that no double tells apart have dates that differ.
+        twice = twice || (gap == 0 && points[i].date == points[i - 1].date);
+        even = even && std::abs(gap - mean) <= off;
     }
-    if (std::ranges::any_of(points, [](const auto& p) { return std::isnan(p.value); }))
-        return ", some missing";
     if (!ascending) return ", not ascending";
     if (twice) return ", some times twice";
     return even ? "" : ", uneven";

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "timeseries/readers/text/date_text.h"
+
 namespace timeseries {
 namespace {
 
@@ -37,6 +39,52 @@ TEST(TimeUnits, TheYearBefore1IsMinus1WhereThereIsNoYear0) {
         EXPECT_EQ(date("days since 0001-01-01", -1.0, calendar), "0000-12-31 00:00:00");
         EXPECT_EQ(date("days since -1-12-31", 1.0, calendar), "0000-01-01 00:00:00");
     }
+}
+
+// In the seconds from 1970 of the mixed calendar; -1 for what is no date.
+double secondsOfText(std::string_view text, Calendar calendar = Calendar::Standard) {
+    const auto moment = momentOfText(text, calendar);
+    if (!moment) return -1;
+    return static_cast<double>(moment->day * 86400 + moment->second) +
+           1e-9 * static_cast<double>(moment->nanoseconds);
+}
+
+TEST(DateText, DatesOfOneFormAreRead) {
+    EXPECT_EQ(secondsOfText("1970-01-02"), 86400);
+    for (const char* text : {"1970-01-02_01:02:03", "1970-01-02T01:02:03", "1970-01-02 01:02:03Z"})
+        EXPECT_EQ(secondsOfText(text), 86400 + 3723) << text;
+    EXPECT_EQ(secondsOfText("1970-01-01_00:00:00.5"), 0.5);
+    EXPECT_EQ(momentOfText("1970-01-01T00:00:00.123456789123Z", Calendar::Standard)->nanoseconds,
+              123'456'789);
+    EXPECT_EQ(dateOfText("1970-01-02_01:02:03.5"), "1970-01-02 01:02:03");
+    EXPECT_EQ(dateOfText("1970-01-02"), "1970-01-02 00:00:00");
+}
+
+TEST(DateText, NothingElseIsRead) {
+    for (const char* text : {"",
+                             "1970",
+                             "1970-1-2",
+                             "19700102",
+                             "1970-01-02_",
+                             "1970-01-02_01",
+                             "1970-01-02_01:02",
+                             "1970-01-02_01:02:03.",
+                             "1970-01-02_01:02:03.x",
+                             "1970-01-02_01:02:03 ",
+                             "1970-01-02_01:02:03+01:00",
+                             "1970-01-02_24:00:00",
+                             "1970-01-02_00:60:00",
+                             "1970-01-02_00:00:60",
+                             "1970-13-02",
+                             "1970-00-02",
+                             "1970-01-00",
+                             "1970-02-29",
+                             "-970-01-02",
+                             "1970-01-02-01:02:03",
+                             "1970-01-02_0a:00:00"})
+        EXPECT_EQ(secondsOfText(text), -1) << text;
+    EXPECT_EQ(secondsOfText("2000-02-29", Calendar::NoLeap), -1);
+    EXPECT_NE(secondsOfText("2001-02-30", Calendar::Day360), -1);
 }
 
 TEST(TimeUnits, EachCalendarCountsItsOwnDays) {

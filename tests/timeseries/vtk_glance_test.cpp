@@ -316,6 +316,42 @@ TEST(VtkGlance, AppendedValuesMayBeCutOff) {
     }
 }
 
+// What nothing tells to be a VTK file costs its own step, as what is cut off does.
+TEST(VtkGlance, AFileThatIsNoneOfVtkIsRefusedWhenItsStepIsRead) {
+    const Path folder = tests::freshFolder();
+    for (const std::size_t bad : {1u, 2u})
+        for (const std::string& text :
+             {std::string(), std::string("<?xml version=\"1.0\"?>\n"), std::string(300, '\0'),
+              std::string("\x89PNG\r\n\x1a\n and so on"), std::string("no such thing")}) {
+            SCOPED_TRACE(fmt::format("file {}: {}", bad, text));
+            auto paths = threeCubes(folder);
+            tests::writeBytes(paths[bad], text);
+            const auto reader = openReader(paths);
+            EXPECT_THAT(timesOf(*reader), ElementsAre(5, 15, 25)) << "as the files are numbered";
+            EXPECT_THAT(reader->variables()[0].notes,
+                        testing::Contains(AllOf(HasSubstr("the steps of 1 of 3 files cannot be"),
+                                                HasSubstr(paths[bad].string()))));
+            EXPECT_THAT(refusalOfStep(*reader, bad), HasSubstr(paths[bad].string()));
+            for (const std::size_t step : {std::size_t{0}, 3 - bad}) expectStep(*reader, step);
+        }
+}
+
+// What is named beside a series by mistake is told before any is read.
+TEST(VtkGlance, AFileOfAnotherKindIsRefusedAtOnce) {
+    const Path folder = tests::freshFolder();
+    const auto files = threeCubes(folder);
+    tests::writeBytes(folder / "run_35.vtu", "NRRD0004\n");
+    EXPECT_THAT(tests::refusalOf({files[0], folder / "run_35.vtu"}),
+                HasSubstr("run_35.vtu: expected the format of"));
+    tests::writeBytes(folder / "notes.txt", "no such thing");
+    EXPECT_THAT(tests::refusalOf({files[0], folder / "notes.txt"}),
+                HasSubstr("notes.txt: expected a NetCDF"));
+    EXPECT_THAT(tests::refusalOf({files[0], folder / "run_99.vtu"}),
+                HasSubstr("run_99.vtu: expected a file, but there is none"));
+    tests::writeBytes(files[0], "");
+    EXPECT_THAT(tests::refusalOf(files), HasSubstr("but it is empty")) << "the first is read";
+}
+
 // Lists that are joined are opened each: how many steps they have stands in them.
 TEST(VtkGlance, ListsAreJoinedAsBefore) {
     const Path folder = tests::freshFolder();

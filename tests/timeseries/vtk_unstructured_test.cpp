@@ -57,6 +57,25 @@ TEST(VtkUnstructured, PointsAndCellsHaveGridsOfTheirOwn) {
     EXPECT_EQ(std::get<std::vector<float>>(reader->read(1, 0).values), (std::vector<float>{5, 6}));
 }
 
+// As VTK writes them since 9.4: each face once, in any order.
+TEST(VtkUnstructured, FacesMayStandInTables) {
+    const auto list = [](const char* name, const char* numbers, const char* type = "Int64") {
+        return fmt::format("<DataArray type=\"{}\" Name=\"{}\" format=\"ascii\">{}</DataArray>\n",
+                           type, name, numbers);
+    };
+    const std::string tables =
+        list("connectivity", "0 1 4 3 6 7 10 9 1 2 4 5 7 8 10 11") + list("offsets", "8 16") +
+        list("types", "12 42", "UInt8") +
+        list("face_connectivity", "2 5 11 8 1 2 5 4 1 2 8 7 7 8 11 10 4 5 11 10 1 4 10 7") +
+        list("face_offsets", "4 8 12 16 20 24") + list("polyhedron_to_faces", "1 3 2 4 5 0") +
+        list("polyhedron_offsets", "0 6");
+    const auto old = open(tests::write("old.vtu", unstructuredText(kTwelve, kTwo)));
+    const auto now = open(tests::write("now.vtu", unstructuredText(kTwelve, kTwo, tables)));
+    for (const std::size_t variable : {0u, 1u})
+        EXPECT_EQ(*now->variables()[variable].grid->mesh(),
+                  *old->variables()[variable].grid->mesh());
+}
+
 // One behind the other; a piece without anything is passed over.
 TEST(VtkUnstructured, PiecesAreOneGrid) {
     std::string text = unstructuredText(kTwelve, kTwo);
@@ -106,6 +125,24 @@ TEST(VtkUnstructured, ListsThatNameWhatIsNotThereAreRefused) {
                 HasSubstr("faces: cell 1 ends at 17 of 5"));
     EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 8", "10 42", list("faces", "1 3 1 2 4")),
                 HasSubstr("expected faceoffsets beside faces"));
+    const auto tables = [&](const std::string& ends, const std::string& faces,
+                            const std::string& more = "polyhedron_offsets") {
+        return lists("0 1 3 6 1 2 4 7", "4 8", "10 42",
+                     list("face_connectivity", "1 2 4 1 2 7 1 4 7 2 4 7") +
+                         list("face_offsets", ends) + list("polyhedron_to_faces", faces) +
+                         list(more.c_str(), "0 4"));
+    };
+    EXPECT_EQ(tables("3 6 9 12", "0 1 2 3"), "");
+    for (const auto& [ends, faces] : {std::pair("3 6 9 12", "0 1 2 4"),
+                                      {"3 6 9 12", "0 1 2 -1"},
+                                      {"3 6 9 13", "0 1 2 3"},
+                                      {"3 6 2 12", "0 1 2 3"},
+                                      {"3 6 -9 12", "0 1 2 3"},
+                                      {"12 12 12 12", "0 0 0 0"}})
+        EXPECT_THAT(tables(ends, faces), HasSubstr("a face of cell 1 has point")) << ends << faces;
+    EXPECT_THAT(tables("3 6 9 12", "0 1 2"), HasSubstr("the faces of cell 1"));
+    EXPECT_THAT(tables("3 6 9 12", "0 1 2 3", "polyhedron_ends"),
+                HasSubstr("expected face_offsets, polyhedron_to_faces and polyhedron_offsets"));
     EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 8", "200 201"),
                 HasSubstr("expected cells that take space"))
         << "of kinds that nobody knows";

@@ -9,6 +9,7 @@
 
 #include "tests/support/read_variables.h"
 #include "tests/support/zarr_store.h"
+#include "timeseries/readers/series_files.h"
 
 namespace timeseries::zarr_conventions {
 namespace {
@@ -262,6 +263,12 @@ TEST(ZarrConventions, StoresAreJoinedByTheirTimes) {
     EXPECT_THAT(timesOf(*reader), ElementsAre(0, 1, 2, 3, 4, 5));
     EXPECT_EQ(valuesOf<std::int32_t>(*reader, "v", 3)[0], 1100);
     EXPECT_EQ(valuesOf<std::int32_t>(*reader, "v", 4)[7], 311);
+    // Named by any of them, or by their folder, as files are.
+    put(folder / "readme.txt", "of three runs");
+    for (const std::filesystem::path& named : {stores[1], stores[1] / "", folder})
+        EXPECT_EQ(expandSeries(std::span(&named, 1)).files, stores) << named;
+    const auto array = stores[1] / "v";
+    EXPECT_THAT(expandSeries(std::span(&array, 1)).files, ElementsAre(array));
 }
 
 TEST(ZarrConventions, DimensionsWithoutNamesAreTimeAndSpace) {

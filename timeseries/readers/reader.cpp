@@ -56,6 +56,7 @@ struct Format {
     bool (*begins)(std::string_view start);
     std::unique_ptr<Reader> (*open)(std::span<const std::filesystem::path> paths);
     bool joins = false;  // open() makes several files one series; else it is given one at a time
+    bool opensLater = false;  // of a series all but the first when their steps are read
 };
 
 const Format& recognise(const std::filesystem::path& path);
@@ -116,7 +117,7 @@ const std::array kFormats = {
                     start.find_first_not_of("\xEF\xBB\xBF \t\r\n"sv) == start.find('<'));
                return vtk && otherVtk(start).empty();
            },
-           openVtk, true},
+           openVtk, true, true},
 };
 // Begins with nothing of its own: told by its size, when it is none of the others.
 const Format kPlot3d{nullptr, openPlot3d};
@@ -124,17 +125,22 @@ const Format kPlot3d{nullptr, openPlot3d};
 const Format kZarr{nullptr, openZarr, true};
 const Format kFoam{nullptr, openFoam}, kAmrex{nullptr, openAmrex, true};
 
-const Format& recognise(const std::filesystem::path& path) {
-    if (isZarr(path)) return kZarr;
-    if (isFoamCase(path)) return kFoam;
-    if (isAmrex(path)) return kAmrex;
+// Null of a file that begins as none. Throws FileError where it cannot be read.
+const Format* formatOf(const std::filesystem::path& path) {
+    if (isZarr(path)) return &kZarr;
+    if (isFoamCase(path)) return &kFoam;
+    if (isAmrex(path)) return &kAmrex;
     const std::string start = beginning(path);
     for (const Format& format : kFormats)
-        if (format.begins(start)) return format;
-    const std::string other = otherFormat(start);
-    if (!other.empty()) throw FileError(notReadSentence(path, other));
+        if (format.begins(start)) return &format;
+    if (!otherFormat(start).empty()) return nullptr;
     std::error_code ignored;
-    if (isPlot3d(start, std::filesystem::file_size(path, ignored))) return kPlot3d;
+    return isPlot3d(start, std::filesystem::file_size(path, ignored)) ? &kPlot3d : nullptr;
+}
+
+[[noreturn]] void failUnknown(const std::filesystem::path& path) {
+    const std::string start = beginning(path), other = otherFormat(start);
+    if (!other.empty()) throw FileError(notReadSentence(path, other));
     if (lower(path.extension().string()) == ".csv" && !start.empty())
         throw FileError(fmt::format(
             "{}: expected a table whose first line names columns x and y, perhaps z, and one more, "
@@ -143,6 +149,11 @@ const Format& recognise(const std::filesystem::path& path) {
     throw FileError(fmt::format(
         "{}: expected a NetCDF, NRRD, NIfTI, MRC, FITS, XDMF, CSV, VTK or OpenVDB file, {}",
         path.string(), start.empty() ? "but it is empty" : "found no format that is known"));
+}
+
+const Format& recognise(const std::filesystem::path& path) {
+    if (const Format* const format = formatOf(path)) return *format;
+    failUnknown(path);
 }
 
 // Those of the slab, of all in the order of a grid of this size.
@@ -177,11 +188,17 @@ std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths)
     if (paths.empty()) throw FileError("expected a file to open, but none is named");
     // All of them first: a wrong file among many is told before any is read.
     const Format& format = recognise(paths.front());
-    for (const std::filesystem::path& path : paths)
-        if (&recognise(path) != &format)
+    for (const std::filesystem::path& path : paths) {
+        const Format* const its = formatOf(path);
+        if (its && its != &format)
             throw FileError(
                 fmt::format("{}: expected the format of {}, so that they make one series",
                             path.string(), paths.front().string()));
+        // One that is empty, or overwritten, is refused when its step is read, where any other
+        // damage is found then.
+        const bool isToldLater = format.opensLater && path.extension() == paths.front().extension();
+        if (!its && !isToldLater) failUnknown(path);
+    }
     const auto now = std::chrono::system_clock::now();
     auto reader =
         format.joins || paths.size() == 1

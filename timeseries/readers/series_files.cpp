@@ -16,6 +16,7 @@
 #include "timeseries/readers/series_text.h"
 #include "timeseries/readers/text/decimal_names.h"
 #include "timeseries/readers/text/numbered_names.h"
+#include "timeseries/readers/text/words.h"
 #include "timeseries/readers/zarr/zarr_hierarchy.h"
 
 namespace timeseries {
@@ -26,16 +27,21 @@ using Paths = std::vector<Path>;
 
 constexpr std::string_view kByName = "in the order of their names";
 
-// What the members of a series are: a plotfile is a folder.
-enum class Members { Files, Plotfiles };
+// What the members of a series are: a plotfile is a folder, and so is a store of Zarr.
+enum class Members { Files, Plotfiles, Stores };
+
+// By its name, too: a group may hold numbered arrays, each a hierarchy of its own.
+bool isStore(const Path& folder) {
+    return lower(folder.extension().string()) == ".zarr" && isZarr(folder);
+}
 
 // Which lists the files of its series, with their times.
 bool isList(const Path& file) {
     return file.extension() == ".pvd" || file.extension() == ".series";
 }
 
-// The ordinary files of a folder, or its plotfiles, hidden ones left out. None when there are too
-// many.
+// The ordinary files of a folder, or others of its members, hidden ones left out. None when there
+// are too many.
 std::optional<Paths> filesIn(const Path& folder, Members members = Members::Files) {
     Paths files;
     std::size_t seen = 0;
@@ -48,7 +54,8 @@ std::optional<Paths> filesIn(const Path& folder, Members members = Members::File
         if (entry->path().filename().string().starts_with('.')) continue;
         const bool isMember = members == Members::Files
                                   ? entry->is_regular_file(ignored)
-                                  : entry->is_directory(ignored) && isAmrex(entry->path());
+                                  : entry->is_directory(ignored) &&
+                                        (members == Members::Plotfiles ? isAmrex : isStore)(*entry);
         if (!isMember) continue;
         files.push_back(folder / entry->path().filename());
     }
@@ -239,6 +246,8 @@ ExpandedSeries folder(const Path& folder) {
     *listed = firstPartsOf(std::move(*listed));
     if (auto plotfiles = filesIn(folder, Members::Plotfiles); plotfiles && !plotfiles->empty())
         listed = std::move(plotfiles);
+    if (const auto stores = filesIn(folder, Members::Stores))
+        listed->insert(listed->end(), stores->begin(), stores->end());
     std::ranges::sort(*listed, nameLess);
     std::map<std::string, Paths> byExtension;
     for (const Path& file : *listed) byExtension[cut(file).extension].push_back(file);
@@ -324,7 +333,11 @@ ExpandedSeries expandSeries(std::span<const Path> named) {
         if (isFoamCase(one)) return {{one}, {}, "", {}};
         if (isAmrex(one)) return member(amrexFolderOf(one), Members::Plotfiles);
         std::error_code ignored;
-        if (std::filesystem::is_directory(one, ignored) && !isZarr(one)) return folder(one);
+        if (std::filesystem::is_directory(one, ignored)) {
+            const Path store = one.has_filename() ? one : one.parent_path();
+            if (isStore(store)) return member(store, Members::Stores);
+            if (!isZarr(one)) return folder(one);
+        }
         if (std::filesystem::is_regular_file(one, ignored)) return member(one);
         return {{one}, {}, "", {}};
     }

@@ -279,6 +279,17 @@ const NcVariable* FileAxes::coordinateOf(const NcVariable& variable, std::size_t
     return free && known.coordinates.empty() && known.times.size() == 1 ? known.times[0] : nullptr;
 }
 
+const NcVariable* FileAxes::textsAlong(const NcVariable& variable, std::size_t position) const {
+    const std::size_t dimension = variable.dimensions[position];
+    const std::string& own = header_.dimensions[dimension].name;
+    for (const std::string_view name : {std::string_view(own), kTextTimes}) {
+        const NcVariable* found = find(name, variable.group);
+        if (!found || found->type || found->dimensions.empty()) continue;
+        if (found->dimensions.size() <= 2 && found->dimensions[0] == dimension) return found;
+    }
+    return nullptr;
+}
+
 std::optional<AxisKind> FileAxes::kindFromAttributes(const NcVariable& variable,
                                                      std::size_t position) const {
     const Dimension& known = dimensions_[variable.dimensions[position]];

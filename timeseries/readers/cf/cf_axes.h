@@ -22,6 +22,9 @@ std::optional<AxisKind> kindByName(std::string_view name);
 // Degrees along the equator, by its units (CF 1.10, section 4.2) or its standard name.
 bool isLongitude(const NcVariable& coordinate);
 
+// What WRF calls the texts of its times.
+inline constexpr std::string_view kTextTimes = "Times";
+
 // Positions in NcVariable::dimensions.
 struct Roles {
     std::optional<std::size_t> x, y, z, t;
@@ -40,6 +43,9 @@ class FileAxes {
     // The coordinate variable of a dimension: one-dimensional, numeric, of its name, else named by
     // the attribute `coordinates`, the variable's own before others'. Null if none, or several.
     const NcVariable* coordinateOf(const NcVariable& variable, std::size_t position) const;
+    // What has texts along a dimension that may be its times: of its name, else as WRF calls them.
+    // Null if none.
+    const NcVariable* textsAlong(const NcVariable& variable, std::size_t position) const;
     Roles rolesOf(const NcVariable& variable) const;
 
  private:

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,6 +41,14 @@ class CfFile {
     virtual std::string tooLarge(const NcVariable& variable, std::uint64_t points) const = 0;
     // Every value, exact, in the file's order. REQUIRES: a numeric type. Throws FileError.
     virtual std::vector<Number> numbers(const NcVariable& variable) const = 0;
+    // Of a variable of texts, one for each place along its first dimension, as many from `first`
+    // on, each up to where it ends: strings, or rows of characters. Nothing of any other, and where
+    // the format's are not read. Throws FileError.
+    virtual std::optional<std::vector<std::string>> texts(const NcVariable& /*variable*/,
+                                                          std::size_t /*first*/,
+                                                          std::size_t /*count*/) const {
+        return std::nullopt;
+    }
     // A block of values as stored. REQUIRES: `values` holds the product of `count` values of the
     // variable's type. Throws FileError.
     virtual void read(const NcVariable& variable, std::span<const std::size_t> start,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "timeseries/readers/cf/cf_date_texts.h"
 #include "timeseries/readers/cf/cf_packing.h"
 #include "timeseries/readers/series_files.h"
 #include "timeseries/readers/text/calendar.h"
@@ -109,6 +110,21 @@ struct Part {
 
 bool before(const Number& a, const Number& b) { return compare(a, b) < 0; }
 
+// Why the dates that some of the files have in text are not taken; "" where none has any.
+std::string whyCounted(const std::vector<StoredTimes>& parts,
+                       const std::vector<std::filesystem::path>& paths) {
+    const auto name = [&](auto part) {
+        return paths[static_cast<std::size_t>(part - parts.begin())].filename().string();
+    };
+    const auto flawed =
+        std::ranges::find_if(parts, [](const StoredTimes& part) { return !part.note.empty(); });
+    if (flawed != parts.end()) return fmt::format("{}: {}", name(flawed), flawed->note);
+    const auto dated = std::ranges::find_if(parts, &StoredTimes::inText);
+    if (dated == parts.end()) return "";
+    return fmt::format("{} of {} is not read, steps are counted: {} has no such dates", dated->name,
+                       name(dated), name(std::ranges::find_if(parts, &StoredTimes::counted)));
+}
+
 // By the numbers in the files' names, where each is one step.
 JoinedTimes count(const std::vector<StoredTimes>& parts,
                   const std::vector<std::filesystem::path>& paths) {
@@ -118,6 +134,7 @@ JoinedTimes count(const std::vector<StoredTimes>& parts,
         joined.segments.push_back({i, parts[i].values.size()});
         steps += parts[i].values.size();
     }
+    joined.times.note = whyCounted(parts, paths);
     joined.times.values.clear();
     for (std::size_t i = 0; i < steps; ++i)
         joined.times.values.emplace_back(static_cast<double>(i));
@@ -128,6 +145,20 @@ JoinedTimes count(const std::vector<StoredTimes>& parts,
         joined.times.values.assign(numbers->begin(), numbers->end());
     }
     return joined;
+}
+
+// With as few digits as tell each from the next, where their numbers do.
+void addDates(const TimeUnits& units, const std::vector<Number>& values,
+              std::vector<TimePoint>& points) {
+    for (const int decimals : {3, 6, 9}) {
+        bool areAlike = false;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            points[i].date = units.date(values[i], decimals);
+            areAlike = areAlike || (i > 0 && points[i].date == points[i - 1].date &&
+                                    compare(values[i], values[i - 1]) != 0);
+        }
+        if (!areAlike) return;
+    }
 }
 
 }  // namespace
@@ -153,12 +184,15 @@ StoredTimes timesOf(const CfFile& file, const FileAxes& fileAxes, const NcVariab
         times.values.clear();
         for (std::uint64_t i = 0; i < dimension.length; ++i)
             times.values.emplace_back(static_cast<double>(i));
+        if (const NcVariable* texts = fileAxes.textsAlong(variable, *roles.t))
+            readDateTexts(file, *texts, times);
     }
     return times;
 }
 
 TimeAxis timeAxisOf(const StoredTimes& times, std::vector<std::string>& notes) {
     TimeAxis axis{times.name, times.units, "", {}, times.counted};
+    if (!times.note.empty()) notes.push_back(times.note);
     std::optional<TimeUnits> units;
     if (looksLikeTimeUnits(times.units) && lower(times.calendar) != "none") {
         const auto calendar = calendarFromName(times.calendar);
@@ -174,8 +208,8 @@ TimeAxis timeAxisOf(const StoredTimes& times, std::vector<std::string>& notes) {
                                                    times.calendar));
     }
     axis.points.reserve(times.values.size());
-    for (const Number& value : times.values)
-        axis.points.push_back({toDouble(value), units ? units->date(value) : ""});
+    for (const Number& value : times.values) axis.points.push_back({toDouble(value), ""});
+    if (units) addDates(*units, times.values, axis.points);
     return axis;
 }
 
@@ -186,7 +220,10 @@ JoinedTimes join(const std::vector<StoredTimes>& parts,
                                     paths[b].string(), variable, what));
     };
     if (parts.size() == 1) return {parts[0], {{0, parts[0].values.size()}}};
-    if (std::ranges::all_of(parts, &StoredTimes::counted)) return count(parts, paths);
+    const auto mayBeCounted = [](const StoredTimes& part) { return part.counted || part.inText; };
+    if (std::ranges::any_of(parts, &StoredTimes::counted) &&
+        std::ranges::all_of(parts, mayBeCounted))
+        return count(parts, paths);
 
     std::vector<Part> sorted;
     for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -14,8 +14,10 @@ namespace timeseries {
 struct StoredTimes {
     std::string name = "step", units, calendar;
     std::vector<Number> values{Number(0.0)};
-    bool counted = true;  // no time coordinate: the values are 0, 1, 2, ...
-    bool single = true;   // no time dimension either
+    bool counted = true;    // no time coordinate: the values are 0, 1, 2, ...
+    bool single = true;     // no time dimension either
+    bool inText = false;    // dates that the file has in words
+    std::string note = {};  // why such are not read; "" for none
 };
 
 // From the time dimension, else from a scalar time coordinate (CF 1.10, section 5.7).
@@ -35,6 +37,8 @@ struct JoinedTimes {
     std::vector<Segment> segments;  // by time; in the order given when the files have none
 };
 
+// Where a file's texts are no dates, or one has no times, those of the others that are in text are
+// not taken either: steps are counted, which a note tells.
 // REQUIRES: parts not empty, none without a step, one for each path or one for all. Throws
 // FileError, naming two files, when the units cannot be brought together or the files' times
 // overlap.

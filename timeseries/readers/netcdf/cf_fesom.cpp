@@ -98,6 +98,11 @@ class FesomFile final : public CfFile {
                       : values_->tooLarge(variable, points);
     }
     std::vector<Number> numbers(const NcVariable& variable) const override;
+    std::optional<std::vector<std::string>> texts(const NcVariable& variable, std::size_t first,
+                                                  std::size_t count) const override {
+        if (sourceOf(variable)) return std::nullopt;  // the mesh has none that is asked for
+        return values_->texts(variable, first, count);
+    }
     void read(const NcVariable& variable, std::span<const std::size_t> start,
               std::span<const std::size_t> count, void* values) const override;
 

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <mutex>
 
+#include "timeseries/readers/cf/cf_axes.h"
 #include "timeseries/readers/cf/cf_packing.h"
 #include "timeseries/readers/forked_call.h"
 #include "timeseries/readers/limits.h"
@@ -26,6 +27,8 @@ namespace timeseries {
 namespace {
 
 constexpr std::chrono::seconds kMaxHeaderTime{10};  // that of 8000 variables takes one
+constexpr std::size_t kMaxStrings = 1'000'000;      // hours of a century
+constexpr std::size_t kMaxStringBytes = 256;        // no date is as long
 
 // Held during every call of the library. HDF5 prints its errors unless told not to, and keeps that
 // setting per thread: netCDF sets it on the first thread alone.
@@ -59,6 +62,13 @@ bool isLocked(const std::filesystem::path& path) {
     flock(file, LOCK_UN);  // also of copies of this process that begin just now
     ::close(file);
     return is;
+}
+
+// A text up to where it ends.
+std::string ended(std::string text) {
+    text.resize(std::min(text.size(), text.find('\0')));
+    while (text.ends_with(' ')) text.pop_back();
+    return text;
 }
 
 }  // namespace
@@ -125,6 +135,7 @@ void NetcdfFile::open() {
     try {
         elsewhere_ = hdf5Elsewhere(path_);  // while it shares what is read of it
         readHeader();
+        readStrings();
     } catch (...) {
         nc_close(id_);
         throw;
@@ -200,30 +211,83 @@ void NetcdfFile::read(const NcVariable& variable, std::span<const std::size_t> s
 std::vector<std::string> NetcdfFile::lines(std::string_view name) const {
     const NcVariable* found = header_.find(name, "");
     if (!found) return {};
-    const std::string place = fmt::format("variable '{}'", name);
-    if (found->type || found->dimensions.size() != 2) fail(place, "expected rows of characters");
-    const std::uint64_t rows = header_.dimension(*found, 0).length,
-                        length = header_.dimension(*found, 1).length;
-    const auto points = static_cast<std::uint64_t>(
-        std::min(static_cast<double>(rows) * static_cast<double>(length), 1e18));
-    if (const std::string why = tooLarge(*found, points); !why.empty()) fail(place, why);
-    std::string text(points, '\0');
-    if (points > 0) {
+    auto lines = found->dimensions.size() == 2
+                     ? texts(*found, 0, header_.dimension(*found, 0).length)
+                     : std::nullopt;
+    if (!lines) fail(fmt::format("variable '{}'", name), "expected rows of characters");
+    return std::move(*lines);
+}
+
+std::optional<std::vector<std::string>> NetcdfFile::texts(const NcVariable& variable,
+                                                          std::size_t first,
+                                                          std::size_t count) const {
+    if (const auto found = strings_.find(variable.name); found != strings_.end()) {
+        const auto from = found->second.begin() + static_cast<std::ptrdiff_t>(first);
+        return std::vector(from, from + static_cast<std::ptrdiff_t>(count));
+    }
+    if (variable.type || variable.dimensions.size() != 2) return std::nullopt;
+    const std::string place = placeOf(variable);
+    const std::uint64_t length = header_.dimension(variable, 1).length;
+    const auto points = static_cast<std::uint64_t>(std::min(
+        static_cast<double>(count) * static_cast<double>(std::max<std::uint64_t>(length, 1)),
+        1e18));  // of rows of nothing the rows
+    if (const std::string why = tooLarge(variable, points); !why.empty()) fail(place, why);
+    std::string text(count * length, '\0');
+    if (!text.empty()) {
         const LibraryLock lock;
         nc_type type = NC_NAT;
-        check(nc_inq_vartype(found->groupId, found->id, &type), place, "a type");
-        if (type != NC_CHAR) fail(place, "expected rows of characters");
-        check(nc_get_var_text(found->groupId, found->id, text.data()), place,
-              "text that can be read");
+        check(nc_inq_vartype(variable.groupId, variable.id, &type), place, "a type");
+        if (type != NC_CHAR) return std::nullopt;
+        const std::array start{first, std::size_t{0}}, counts{count, std::size_t{length}};
+        check(nc_get_vara_text(variable.groupId, variable.id, start.data(), counts.data(),
+                               text.data()),
+              place, "text that can be read");
     }
-    std::vector<std::string> lines;
-    for (std::uint64_t row = 0; row < rows; ++row) {
-        std::string line = text.substr(row * length, length);
-        line.resize(std::min(line.size(), line.find('\0')));
-        while (line.ends_with(' ')) line.pop_back();
-        lines.push_back(std::move(line));
+    std::vector<std::string> rows;
+    rows.reserve(count);
+    for (std::size_t row = 0; row < count; ++row)
+        rows.push_back(ended(text.substr(row * length, length)));
+    return rows;
+}
+
+// Strings lie in a heap of the file, of which a damaged one may crash HDF5: they are read where the
+// header is, in a copy of this process first.
+void NetcdfFile::readStrings() {
+    for (const NcVariable& variable : header_.variables) {
+        if (variable.type || variable.dimensions.size() != 1) continue;
+        const NcDimension& along = header_.dimension(variable, 0);
+        const std::string_view name = variable.baseName();
+        if (name != along.name && name != kTextTimes) continue;
+        nc_type type = NC_NAT;
+        if (along.length > kMaxStrings || variable.chunkBytes > kMaxStrings ||
+            nc_inq_vartype(variable.groupId, variable.id, &type) != NC_NOERR || type != NC_STRING)
+            continue;
+        auto strings = stringsOf(variable);
+        if (strings.size() == along.length) strings_[variable.name] = std::move(strings);
     }
-    return lines;
+}
+
+// As many as can be read. A few at a time: each may be as long as the file.
+std::vector<std::string> NetcdfFile::stringsOf(const NcVariable& variable) const {
+    constexpr std::size_t kAtATime = 64;
+    std::vector<std::string> strings;
+    const std::size_t length = header_.dimension(variable, 0).length;
+    while (strings.size() < length) {
+        std::vector<char*> some(std::min(kAtATime, length - strings.size()), nullptr);
+        const std::size_t start = strings.size(), count = some.size();
+        if (nc_get_vara_string(variable.groupId, variable.id, &start, &count, some.data()) !=
+            NC_NOERR)
+            return strings;
+        bool areShort = true;
+        for (const char* one : some) {
+            const std::string_view text = one ? one : "";
+            areShort = areShort && text.size() <= kMaxStringBytes;
+            strings.push_back(ended(std::string(text.substr(0, kMaxStringBytes))));
+        }
+        nc_free_string(count, some.data());
+        if (!areShort) strings.resize(length);  // no dates: what follows is not looked at
+    }
+    return strings;
 }
 
 }  // namespace timeseries

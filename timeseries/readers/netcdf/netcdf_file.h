@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +37,9 @@ class NetcdfFile final : public CfFile {
     }
     std::vector<std::filesystem::path> sources() const override;
     std::vector<Number> numbers(const NcVariable& variable) const override;
+    // Of strings those alone that may be times, read with the header.
+    std::optional<std::vector<std::string>> texts(const NcVariable& variable, std::size_t first,
+                                                  std::size_t count) const override;
     void read(const NcVariable& variable, std::span<const std::size_t> start,
               std::span<const std::size_t> count, void* values) const override;
 
@@ -48,6 +53,8 @@ class NetcdfFile final : public CfFile {
     std::string tooLarge(ValueType type, std::uint64_t points, std::uint64_t chunkBytes) const;
     void open();
     void readHeader();
+    void readStrings();
+    std::vector<std::string> stringsOf(const NcVariable& variable) const;
     void readGroup(int group, const std::string& name, int depth);
     void readVariable(int group, const std::string& groupName, int id);
     void readGroupAttributes(int group, const std::string& name);
@@ -61,6 +68,7 @@ class NetcdfFile final : public CfFile {
     int id_ = -1;
     Hdf5Elsewhere elsewhere_;
     std::vector<int> dimensionIds_;  // the library's, beside header_.dimensions
+    std::map<std::string, std::vector<std::string>> strings_;  // [variable]
 };
 
 }  // namespace timeseries

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cctype>
 #include <charconv>
@@ -241,12 +242,12 @@ std::optional<TimeUnits> TimeUnits::parse(std::string_view text, Calendar calend
     return units;
 }
 
-std::string TimeUnits::date(const Number& value) const {
+std::string TimeUnits::date(const Number& value, int decimals) const {
     const auto since = timesUnit(value, unitNs_);
     if (!since) return "";
     // A value of 43831.1 days is a third of a microsecond off: the clock shows no more than the
-    // value holds, and no more than milliseconds, unless their unit is shorter.
-    int decimals = unitNs_ < 1'000 ? 9 : unitNs_ < 1'000'000 ? 6 : 3;
+    // value holds, and no more than it is asked for, unless their unit is shorter.
+    decimals = std::max(decimals, unitNs_ < 1'000 ? 9 : unitNs_ < 1'000'000 ? 6 : 3);
     std::int64_t shown = decimals == 9 ? 1 : decimals == 6 ? 1'000 : 1'000'000;
     const double resolution = resolutionNs(value, unitNs_);
     for (; decimals > 0 && !(resolution < static_cast<double>(shown)); decimals -= 3)

@@ -21,10 +21,10 @@ class TimeUnits {
     // (CF 1.10, 4.4: a year is 365.242198781 days in every calendar, a month a twelfth of it).
     static std::optional<TimeUnits> parse(std::string_view text, Calendar calendar);
 
-    // "2000-01-04 12:00:00", with ".fff" when the rounded milliseconds are not zero; rounded to
-    // whole seconds when the value cannot hold a millisecond. "" for what is not finite or lies
-    // beyond kMaxYear.
-    std::string date(const Number& value) const;
+    // "2000-01-04 12:00:00", with ".fff" when the rounded milliseconds are not zero, or with 6 or 9
+    // decimals; rounded to whole seconds when the value cannot hold a millisecond. "" for what is
+    // not finite or lies beyond kMaxYear.
+    std::string date(const Number& value, int decimals = 3) const;
 
     // A value counted in `other`, counted in these units, by way of whole nanoseconds. NaN for what
     // has no date.

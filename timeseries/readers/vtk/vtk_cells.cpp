@@ -72,6 +72,7 @@ void VtkCellReader::addCells(const VtkPiece& piece) {
 // The lists of a cell are a number of faces, and of each how many points it has, and which.
 void VtkCellReader::addFaces(const VtkPiece& piece) {
     const std::uint64_t cells = grid_.types.size(), before = grid_.faces.size();
+    if (piece.faceTables) return addFaceTables(piece);
     if (!piece.faces || !piece.faceOffsets) {
         if (!grid_.faceEnds.empty()) grid_.faceEnds.resize(cells, before);
         return;
@@ -106,6 +107,47 @@ void VtkCellReader::addFaces(const VtkPiece& piece) {
             grid_.faces[before + i] =
                 static_cast<std::uint32_t>(number + (isPoint ? firstPoint_ : 0));
     });
+}
+
+// As the older lists, in which a face stands once for each of its cells, of which there are two at
+// most: a damaged file might name a large one for many. What is wrong has no point.
+void VtkCellReader::addFaceTables(const VtkPiece& piece) {
+    const VtkFaceTables& tables = *piece.faceTables;
+    std::vector<std::uint32_t> corners(tables.corners.count, kNoPoint);
+    std::vector<std::uint64_t> ends(tables.ends.count), faces(tables.faces.count),
+        cellEnds(piece.cells);
+    forEach("face_connectivity", tables.corners, [&](std::uint64_t i, std::int64_t point) {
+        corners[i] = vtkCorner(point, piece.points, firstPoint_);
+    });
+    const auto take = [](std::vector<std::uint64_t>& to) {
+        return [&to](std::uint64_t i, std::int64_t number) { to[i] = vtkEnd(number, 0); };
+    };
+    forEach("face_offsets", tables.ends, take(ends));
+    forEach("polyhedron_to_faces", tables.faces, take(faces));
+    forEach("polyhedron_offsets", tables.cellEnds, take(cellEnds));
+    grid_.faceEnds.resize(grid_.types.size() - piece.cells, grid_.faces.size());
+    std::uint64_t next = 0, left = 2 * corners.size();
+    for (const std::uint64_t each : cellEnds) {
+        const std::uint64_t end = std::min<std::uint64_t>(each, faces.size());
+        if (next < each)
+            grid_.faces.push_back(
+                static_cast<std::uint32_t>(std::min<std::uint64_t>(each - next, kNoPoint)));
+        for (; next < end; ++next) {
+            const std::uint64_t face = faces[next];
+            const std::uint64_t first = face > 0 && face <= ends.size() ? ends[face - 1] : 0,
+                                last = face < ends.size() ? ends[face] : 0;
+            if (!(first < last && last <= corners.size() && last - first <= left)) {
+                grid_.faces.insert(grid_.faces.end(), {1, kNoPoint});
+                continue;
+            }
+            left -= last - first;
+            grid_.faces.push_back(static_cast<std::uint32_t>(last - first));
+            grid_.faces.insert(grid_.faces.end(),
+                               corners.begin() + static_cast<std::ptrdiff_t>(first),
+                               corners.begin() + static_cast<std::ptrdiff_t>(last));
+        }
+        grid_.faceEnds.push_back(grid_.faces.size());
+    }
 }
 
 int VtkCellReader::ReadPieceData() {

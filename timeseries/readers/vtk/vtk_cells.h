@@ -47,6 +47,7 @@ class VtkCellReader : public vtkXMLUnstructuredGridReader, public VtkCells {
     void forEach(const char* name, const VtkNumbers& expected, const Use& use);
     void addCells(const VtkPiece& piece);
     void addFaces(const VtkPiece& piece);
+    void addFaceTables(const VtkPiece& piece);
 
     UnstructuredGrid grid_;
 };

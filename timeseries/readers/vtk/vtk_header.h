@@ -72,13 +72,20 @@ struct VtkList {
     VtkNumbers connectivity, offsets;
 };
 
+// Faces of polyhedra as VTK writes them since 9.4: where the corners of each face end, the faces of
+// one cell behind those of the cell before, and where these end.
+struct VtkFaceTables {
+    VtkNumbers corners, ends, faces, cellEnds;
+};
+
 // A piece of an unstructured grid, or of polygons: "VTK File Formats", Kitware, "UnstructuredGrid",
 // "PolyData".
 struct VtkPiece {
     std::uint64_t points = 0, cells = 0;
     VtkNumbers places, connectivity, offsets, types;
-    std::optional<VtkNumbers> faces, faceOffsets;  // of polyhedra
-    std::array<VtkList, 3> lists;                  // of polygons: points, lines, surfaces
+    std::optional<VtkNumbers> faces, faceOffsets;  // of polyhedra, until VTK 9.3
+    std::optional<VtkFaceTables> faceTables;
+    std::array<VtkList, 3> lists;  // of polygons: points, lines, surfaces
 };
 
 struct VtkTime {

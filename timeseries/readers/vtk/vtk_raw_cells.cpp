@@ -17,7 +17,7 @@ namespace {
 
 bool isRaw(const VtkPiece& piece) {
     const bool lists = piece.connectivity.rawAt && piece.offsets.rawAt && piece.types.rawAt;
-    return piece.places.rawAt && (piece.cells == 0 || (lists && !piece.faces));
+    return piece.places.rawAt && (piece.cells == 0 || (lists && !piece.faces && !piece.faceTables));
 }
 
 class RawNumbers {

@@ -93,6 +93,16 @@ VtkPiece readVtkPiece(const XmlFile& file, const VtkEncoding& encoding, const Xm
     if (found.faces) found.faceOffsets = read("faceoffsets", found.cells);
     if (found.faces && !found.faceOffsets)
         failVtk(file.path, placeOf(cells), "expected faceoffsets beside faces");
+    const auto corners = read("face_connectivity", std::nullopt);
+    if (!corners || corners->count == 0 || found.faces) return found;
+    const auto ends = read("face_offsets", std::nullopt),
+               faces = read("polyhedron_to_faces", std::nullopt),
+               cellEnds = read("polyhedron_offsets", found.cells);
+    if (!ends || !faces || !cellEnds)
+        failVtk(file.path, placeOf(cells),
+                "expected face_offsets, polyhedron_to_faces and polyhedron_offsets beside "
+                "face_connectivity");
+    found.faceTables = {*corners, *ends, *faces, *cellEnds};
     return found;
 }
 
