@@ -11,6 +11,7 @@
 #include "render/annotate/axis_labels.h"
 #include "render/annotate/box_edges.h"
 #include "render/annotate/globe_meshes.h"
+#include "render/annotate/legend.h"
 #include "render/annotate/map_lines.h"
 
 namespace render {
@@ -66,8 +67,8 @@ AxesMeshes axesMeshes(const timeseries::Grid& grid, const PlacedPoints& placed,
     const FontStyle style = labelStyle(view.size);
     const Sights sights(view, midEye, half);
     const Screen& screen = sights.eye();
-    const auto axes =
-        axisLabels(grid, placed, sights, midEye, view.size, font, style, legend.covers());
+    const auto axes = axisLabels(grid, placed, sights, midEye, view.size, font, style,
+                                 coveredByLegend(legend, view.size));
     const float width = lineWidth(style);
     const LineColors& colors = lineColors();
 

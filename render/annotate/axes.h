@@ -24,7 +24,7 @@ struct AxesMeshes {
     FlatMesh grounds;  // of the labels
     FlatMesh labels;
 };
-// Labels lie inside the picture, apart from each other and from what `legend` draws: render/
+// Labels lie inside the picture, apart from each other and from the ground of `legend`: render/
 // axis_labels.h has the rules. All is chosen for the middle, `midEye` (world), so that both eyes
 // have the same labels. REQUIRES: `font` has labelStyle(view.size).
 AxesMeshes axesMeshes(const timeseries::Grid& grid, const PlacedPoints& placed, const View& view,

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
+#include <glm/vector_relational.hpp>
 #include <span>
 #include <utility>
 
@@ -23,20 +21,16 @@ namespace {
 class Labelling {
  public:
     Labelling(const LabelPage& page, std::span<const PixelRect> taken)
-        : page_(page), others_(page.sights, page.size, taken) {
+        : page_(page), places_(page.sights, page.size, taken) {
         const glm::dvec3 half = page.placed.boxHalf();
-        for (const Edge& edge : edges(half)) others_.takeLine(edge.at(half, -1), edge.at(half, 1));
+        for (const Edge& edge : edges(half)) places_.takeLine(edge.at(half, -1), edge.at(half, 1));
     }
 
     void number(int axis) {
         const auto along = stretches(page_, axis);
-        LabelPlaces places = others_;
-        for (const AxisLabels& shown : axes_)
-            for (const auto& number : shown.numbers)
-                if (number) places.take(*number);
         std::optional<AxisLabels> best;
         const auto consider = [&](const Stretch& stretch) {
-            AxisLabels shown = numbered(page_, places, stretch);
+            AxisLabels shown = numbered(page_, places_, stretch);
             if (!best || numberCount(shown) > numberCount(*best)) best = std::move(shown);
             return numberCount(*best) >= 2;
         };
@@ -48,62 +42,96 @@ class Labelling {
             });
         if (!best) return;
         for (const glm::dvec3& at : best->places)
-            others_.takeTick(at, best->outward * tickLength(page_.style));
+            places_.takeTick(at, best->outward * tickLength(page_.style));
+        for (const auto& number : best->numbers)
+            if (number) places_.take(*number);
         axes_.push_back(std::move(*best));
     }
 
     void name(AxisLabels& shown) {
-        const timeseries::Axis& axis = page_.grid.axes()[static_cast<std::size_t>(shown.edge.axis)];
-        const std::string unit = shownUnit(axis.units);
-        std::string text = unit.empty() ? axis.name : fmt::format("{} ({})", axis.name, unit);
-        std::ranges::replace(text, '\n', ' ');
-        auto along = stretches(page_, shown.edge.axis);
-        std::erase_if(along, [&](const Stretch& s) { return s.pixels() < page_.line(); });
-        // Not std::ranges': clang 14 does not compile it with GCC 12's library.
-        const auto end = std::stable_partition(along.begin(), along.end(), [&](const Stretch& s) {
-            return s.edge.side == shown.edge.side;
-        });
-        const std::span<const Stretch> own(along.begin(), end), others(end, along.end());
-        if (text.empty() || along.empty()) return;
-        constexpr std::ptrdiff_t kAll = 1000, kTwo = 2;
-        std::vector<Words> names = {wordsOf(page_, text)};
-        for (const double lines : {12.0, 7.0, 4.0})
-            names.push_back(wordsOf(page_, shortened(page_.font, page_.style, text,
-                                                     static_cast<float>(lines * page_.line()))));
-        std::erase_if(names, [](const Words& name) { return name.text.empty(); });
-        for (const Words& name : names) {
-            for (const std::ptrdiff_t keep : {kAll, kTwo})
-                if (placeBeside(shown, own, name, keep) || placeAtEnds(shown, own, name, keep) ||
-                    placeBeside(shown, others, name, keep))
-                    return;
-            if (placeAround(shown, along, name, kTwo)) return;
-        }
-        if (!names.empty()) placeAround(shown, along, names.back(), 0);
+        const auto along = stretches(page_, shown.edge.axis);
+        const auto own = std::ranges::find_if(
+            along, [&](const Stretch& stretch) { return stretch.edge.side == shown.edge.side; });
+        if (own == along.end() || own->pixels() < page_.line()) return;
+        if (isSeenEndOn(shown.edge.axis)) return;
+        const auto names = namesOf(shown.edge.axis);
+        const auto others = stretchesBut(shown.edge.axis);
+        for (const glm::dvec2& side : {own->outward, -own->outward})
+            for (const Words& name : names)
+                if (placeAlong(shown, *own, others, side, name)) return;
     }
 
     std::vector<AxisLabels>& axes() { return axes_; }
 
  private:
-    static constexpr std::array kAlong = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9, 0.0, 1.0};
+    // Through the box, from outside: the axis' edges lie among what others are labelled beside.
+    bool isSeenEndOn(int axis) const {
+        const auto within = glm::lessThanEqual(glm::abs(page_.midEye), page_.placed.boxHalf());
+        return !within[axis] && within[(axis + 1) % 3] && within[(axis + 2) % 3];
+    }
 
-    // Where a name stands well; the numbers that it displaces go. Each axis keeps as many as `keep`
-    // of those it has.
-    bool tryName(AxisLabels& shown, const Label& label, double margin, std::ptrdiff_t keep) {
-        const double apart = 0.4 * page_.line();
-        if (!others_.fits(label, margin, apart)) return false;
-        const auto displaced = [&](const std::optional<Label>& number) {
-            return number && !others_.apart(label, *number, apart);
+    // The name with its unit, alone, and ever shorter.
+    std::vector<Words> namesOf(int index) const {
+        const timeseries::Axis& axis = page_.grid.axes()[static_cast<std::size_t>(index)];
+        std::string name = axis.name, unit = shownUnit(axis.units);
+        for (std::string* text : {&name, &unit}) std::ranges::replace(*text, '\n', ' ');
+        std::vector<Words> names;
+        const auto add = [&](std::string text) {
+            if (!text.empty() && (names.empty() || names.back().text != text))
+                names.push_back(wordsOf(page_, std::move(text)));
         };
-        for (const AxisLabels& axis : axes_) {
-            const std::ptrdiff_t lost = std::ranges::count_if(axis.numbers, displaced);
-            if (lost > 0 && numberCount(axis) - lost < keep) return false;
-        }
-        for (AxisLabels& axis : axes_)
-            for (auto& number : axis.numbers)
-                if (displaced(number)) number.reset();
-        others_.take(label);
-        shown.name = label;
-        return true;
+        if (!unit.empty()) add(fmt::format("{} ({})", name, unit));
+        add(name);
+        for (const double lines : {12.0, 7.0, 4.0})
+            add(shortened(page_.font, page_.style, name, static_cast<float>(lines * page_.line())));
+        return names;
+    }
+
+    std::vector<Stretch> stretchesBut(int axis) const {
+        std::vector<Stretch> all;
+        for (const AxisLabels& other : axes_)
+            if (other.edge.axis != axis) {
+                const auto along = stretches(page_, other.edge.axis);
+                all.insert(all.end(), along.begin(), along.end());
+            }
+        return all;
+    }
+
+    // On that side of its edge: beyond the numbers, as near the middle as there is room; else
+    // between two of them.
+    bool placeAlong(AxisLabels& shown, const Stretch& own, std::span<const Stretch> others,
+                    const glm::dvec2& side, const Words& name) {
+        const double near = tickLength(page_.style) + page_.gap();
+        const bool numbersThere = glm::dot(side, shown.outward) > 0;
+        for (const double margin : {page_.margin(), kLeastLabelMargin})
+            for (const double away : {numbersThere ? reach(shown) + 1.2 * page_.gap() : near, near})
+                for (const double t : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9}) {
+                    const Label label =
+                        centred(name, glm::mix(own.a, own.b, t), beyond(name, side, away));
+                    if (!places_.fits(label, margin, 0.4 * page_.line()) ||
+                        !belongs(label, own, others))
+                        continue;
+                    places_.take(label);
+                    shown.name = label;
+                    return true;
+                }
+        return false;
+    }
+
+    // Whether it is plain which axis a name is of: no other's edge or number is as near.
+    bool belongs(const Label& name, const Stretch& own, std::span<const Stretch> others) const {
+        const PixelRect covers = name.ink.moved(page_.sights.pixel(0, name.anchor));
+        const double near = distance(covers, own.from, own.to) + 1;  // a pixel: roundings
+        if (std::ranges::any_of(others, [&](const Stretch& other) {
+                return distance(covers, other.from, other.to) < near;
+            }))
+            return false;
+        return std::ranges::all_of(axes_, [&](const AxisLabels& axis) {
+            return axis.edge.axis == own.edge.axis ||
+                   std::ranges::all_of(axis.numbers, [&](const std::optional<Label>& number) {
+                       return !number || places_.apart(name, *number, page_.line());
+                   });
+        });
     }
 
     // How far the numbers reach from their edge.
@@ -117,75 +145,8 @@ class Labelling {
         return farthest;
     }
 
-    // Beyond the numbers, as near the middle as there is room; else between two of them.
-    bool placeBeside(AxisLabels& shown, std::span<const Stretch> along, const Words& name,
-                     std::ptrdiff_t keep) {
-        const double near = tickLength(page_.style) + page_.gap();
-        for (const Stretch& stretch : along) {
-            if (!stretch.outline) return false;
-            const bool own = stretch.edge.side == shown.edge.side;
-            for (const double margin : {page_.margin(), kLeastLabelMargin})
-                for (const double away : {own ? reach(shown) + 1.2 * page_.gap() : near, near})
-                    for (const double t : kAlong)
-                        if (tryName(shown,
-                                    centred(name, glm::mix(stretch.a, stretch.b, t),
-                                            beyond(name, stretch.outward, away)),
-                                    margin, keep))
-                            return true;
-        }
-        return false;
-    }
-
-    // Where the edge ends, in its direction or leaning from it: the upper end first.
-    bool placeAtEnds(AxisLabels& shown, std::span<const Stretch> along, const Words& name,
-                     std::ptrdiff_t keep) {
-        for (const Stretch& stretch : along) {
-            if (!stretch.outline) return false;
-            struct End {
-                glm::dvec3 at;
-                glm::dvec2 towards;
-            };
-            const glm::dvec2 way = glm::normalize(stretch.to - stretch.from);
-            std::array ends = {End{stretch.a, -way}, End{stretch.b, way}};
-            if (ends[0].towards.y > ends[1].towards.y) std::swap(ends[0], ends[1]);
-            for (const End& end : ends)
-                for (const double lean : {0.0, 0.5, 1.0})
-                    if (tryName(shown,
-                                centred(name, end.at,
-                                        beyond(name,
-                                               glm::normalize(end.towards + lean * stretch.outward),
-                                               page_.gap())),
-                                kLeastLabelMargin, keep))
-                        return true;
-        }
-        return false;
-    }
-
-    // On any side of the edges, as near as there is room, rather outward than on the box.
-    bool placeAround(AxisLabels& shown, std::span<const Stretch> along, const Words& name,
-                     std::ptrdiff_t keep) {
-        constexpr int kDirections = 16;
-        for (double lines = 0; lines <= 4; lines += 0.5)
-            for (int i = 0; i < kDirections; ++i)
-                for (const Stretch& stretch : along)
-                    for (const double t : kAlong) {
-                        const double turn =
-                            (i + 1) / 2 * (i % 2 ? 1 : -1) * (glm::two_pi<double>() / kDirections);
-                        const glm::dvec2 out = stretch.outward;
-                        const glm::dvec2 towards(out.x * std::cos(turn) - out.y * std::sin(turn),
-                                                 out.x * std::sin(turn) + out.y * std::cos(turn));
-                        if (tryName(
-                                shown,
-                                centred(name, glm::mix(stretch.a, stretch.b, t),
-                                        beyond(name, towards, page_.gap() + lines * page_.line())),
-                                kLeastLabelMargin, keep))
-                            return true;
-                    }
-        return false;
-    }
-
     const LabelPage& page_;
-    LabelPlaces others_;  // all but numbers
+    LabelPlaces places_;
     std::vector<AxisLabels> axes_;
 };
 

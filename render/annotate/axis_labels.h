@@ -1,13 +1,15 @@
 // Which edges of a box carry its axes, and where their numbers and names stand. Pure.
 //
 // An axis is labelled along an edge on the box's outline: x and y along the lowest, z along the
-// leftmost that has room for two numbers. Every axis with an edge that is at least a line of text
-// long in the picture has its name: beyond its numbers or between them, or at another edge of the
-// axis; where the picture is too narrow for that, on any side of an edge, also on the box; and
-// shortened where it is too long. It has two numbers or more wherever there is room for them beside
-// an edge that is five times as long as two of them need to stand apart: among multiples of 1, 2
-// and 5 there are then two. On the box they stand where only there is room. Names come before
-// numbers, the names and numbers of z before those of x and y.
+// leftmost that has room for two numbers. It has two numbers or more wherever there is room for
+// them beside an edge that is five times as long as two of them need to stand apart: among
+// multiples of 1, 2 and 5 there are then two. On the box they stand where only there is room.
+//
+// Numbers come before names, those of z before those of x and y, so that no name takes a number's
+// place. A name lies along the edge whose numbers it is of, nearer to it than to any other axis'
+// edges and off their numbers: beyond its own or between them; where there is no room for all of it
+// without its unit, then shortened, then on the box, else nowhere. An axis that is seen end-on
+// through the box has none.
 #pragma once
 
 #include <optional>
@@ -30,7 +32,8 @@ struct AxisLabels {
 
 double tickLength(FontStyle style);
 
-// `taken`: what other texts cover. Sees the box through `sights`, in axis coordinates.
+// `taken`: what other texts cover, with their grounds. Sees the box through `sights`, in axis
+// coordinates.
 std::vector<AxisLabels> axisLabels(const timeseries::Grid& grid, const PlacedPoints& placed,
                                    const Sights& sights, const glm::dvec3& midEye,
                                    glm::ivec2 pictureSize, const Font& font, FontStyle style,

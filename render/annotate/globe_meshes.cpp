@@ -11,6 +11,7 @@
 
 #include "render/annotate/axes_parts.h"
 #include "render/annotate/labelled_edges.h"
+#include "render/annotate/legend.h"
 #include "render/annotate/map_lines.h"
 #include "render/image/color.h"
 
@@ -214,7 +215,8 @@ AxesMeshes globeMeshes(const PlacedPoints& placed, const View& view, const glm::
     AxesMeshes meshes;
 
     const std::vector<MapLine> graticule = graticuleOf(shownPart(globe));
-    DegreeLabels labels(surface, sights, globe, view.size, font, style, legend.covers());
+    DegreeLabels labels(surface, sights, globe, view.size, font, style,
+                        coveredByLegend(legend, view.size));
     const auto isMeridian = [](const MapLine& line) { return line.front().x == line.back().x; };
     for (const MapLine& line : graticule)
         if (!isMeridian(line) && std::abs(line.front().y) < 90) labels.parallel(line.front().y);

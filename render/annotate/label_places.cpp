@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace render {
 
@@ -39,6 +40,22 @@ std::vector<glm::dvec2> piecesOutside(const glm::dvec2& a, const glm::dvec2& b,
     }
     if (at < 1) pieces.emplace_back(at, 1);
     return pieces;
+}
+
+double distance(const PixelRect& rect, const glm::dvec2& a, const glm::dvec2& b) {
+    if (partInside(a, b, rect)) return 0;
+    // One of the two nearest places is an end of the line or a corner.
+    double least = std::numeric_limits<double>::infinity();
+    for (const glm::dvec2& end : {a, b})
+        least = std::min(least, glm::distance(end, glm::clamp(end, rect.lo, rect.hi)));
+    const glm::dvec2 along = b - a;
+    const double square = std::max(glm::dot(along, along), std::numeric_limits<double>::min());
+    for (const glm::dvec2& corner :
+         {rect.lo, rect.hi, glm::dvec2(rect.lo.x, rect.hi.y), glm::dvec2(rect.hi.x, rect.lo.y)}) {
+        const double t = std::clamp(glm::dot(corner - a, along) / square, 0.0, 1.0);
+        least = std::min(least, glm::distance(corner, a + t * along));
+    }
+    return least;
 }
 
 Sights::Sights(const View& view, const glm::dvec3& midEye, const glm::dvec3& boxHalf)

@@ -20,6 +20,8 @@ std::optional<glm::dvec2> partInside(const glm::dvec2& a, const glm::dvec2& b,
 // What is left of a line where texts stand: pieces outside all rectangles, as fractions, ascending.
 std::vector<glm::dvec2> piecesOutside(const glm::dvec2& a, const glm::dvec2& b,
                                       std::span<const PixelRect> rects);
+// How far a rectangle is from a line; 0 where they meet. REQUIRES: it has an area.
+double distance(const PixelRect& rect, const glm::dvec2& a, const glm::dvec2& b);
 
 // The box as one eye sees it, as the middle does, and as the other eye does, which sees every place
 // as far to the other side of the middle. What stands well in all of them stands well for both eyes

@@ -303,12 +303,16 @@ FlatMesh legendMesh(const Legend& legend, const Font& font, glm::ivec2 pictureSi
     return Writer(legend, font, pictureSize).write();
 }
 
-FlatMesh legendGround(const FlatMesh& legend, glm::ivec2 pictureSize,
-                      const glm::dvec3& background) {
-    const auto line = static_cast<float>(labelStyle(pictureSize).linePixels);
+namespace {
+
+float softEdge(glm::ivec2 pictureSize) {
+    return 0.4f * static_cast<float>(labelStyle(pictureSize).linePixels);
+}
+
+std::vector<PixelRect> platesUnder(const FlatMesh& legend, glm::ivec2 pictureSize) {
     std::vector<PixelRect> plates;
     for (PixelRect plate : legend.covers()) {
-        plate = plate.grown(0.35 * static_cast<double>(line));
+        plate = plate.grown(0.35 * labelStyle(pictureSize).linePixels);
         // It may join plates that were apart.
         for (std::size_t i = plates.size(); i-- > 0;) {
             if (!overlap(plate, plates[i])) continue;
@@ -318,9 +322,23 @@ FlatMesh legendGround(const FlatMesh& legend, glm::ivec2 pictureSize,
         }
         plates.push_back(plate);
     }
+    return plates;
+}
+
+}  // namespace
+
+FlatMesh legendGround(const FlatMesh& legend, glm::ivec2 pictureSize,
+                      const glm::dvec3& background) {
     FlatMesh ground;
-    for (const PixelRect& plate : plates) ground.plate(plate, 0.4f * line, groundColor(background));
+    for (const PixelRect& plate : platesUnder(legend, pictureSize))
+        ground.plate(plate, softEdge(pictureSize), groundColor(background));
     return ground;
+}
+
+std::vector<PixelRect> coveredByLegend(const FlatMesh& legend, glm::ivec2 pictureSize) {
+    std::vector<PixelRect> plates = platesUnder(legend, pictureSize);
+    for (PixelRect& plate : plates) plate = plate.grown(static_cast<double>(softEdge(pictureSize)));
+    return plates;
 }
 
 }  // namespace render

@@ -32,5 +32,7 @@ struct Legend {
 FlatMesh legendMesh(const Legend& legend, const Font& font, glm::ivec2 pictureSize);
 // What is drawn under it: one plate under texts that stand close to each other.
 FlatMesh legendGround(const FlatMesh& legend, glm::ivec2 pictureSize, const glm::dvec3& background);
+// What that covers, with its soft edges: nothing else can be read there.
+std::vector<PixelRect> coveredByLegend(const FlatMesh& legend, glm::ivec2 pictureSize);
 
 }  // namespace render

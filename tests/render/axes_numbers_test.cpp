@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "render/annotate/legend.h"
 #include "tests/support/drawn_axes.h"
 
 namespace render {
@@ -249,6 +250,53 @@ TEST(Axes, LabelsKeepOffTheLegend) {
     for (const auto& shape : shapes(meshes.labels))
         EXPECT_FALSE(tests::overlap(shape.covers, {where->lo - reach, where->hi + reach}));
     EXPECT_TRUE(tests::find(meshes.labels, alone.font, labelStyle(size), "z (m)"));
+}
+
+// What is dark or soft under a legend is no place for a part of a label.
+TEST(Axes, LabelsKeepOffTheLegendsGround) {
+    const glm::ivec2 size(800, 600);
+    const glm::dvec3 eye = eyeAt(-60, 25, 3.4);
+    const Drawn alone(fire(), eye, size);
+    const auto where = alone.label("z (m)");
+    ASSERT_TRUE(where);
+    FlatMesh legend;  // beside the name, nearer than its ground reaches
+    legend.rect({where->lo.x - 10, where->lo.y}, {where->lo.x - 3, where->hi.y}, glm::vec4(1));
+    const auto meshes = axesMeshes(fire(), alone.placed, alone.view, eye, alone.font, legend);
+    for (const auto& shape : shapes(meshes.labels))
+        for (const auto& dark : shapes(legendGround(legend, size, glm::dvec3(0))))
+            EXPECT_FALSE(tests::overlap(shape.covers, dark.covers));
+    EXPECT_TRUE(tests::find(meshes.labels, alone.font, labelStyle(size), "z (m)"));
+}
+
+// From above, depth is four lines in the corners, under the sea's surface.
+TEST(Axes, OneSeenEndOnHasNoNameAndTheOthersHaveAll) {
+    const Grid nameless(
+        {ocean().axes()[0], ocean().axes()[1], tests::measuredAxis("", "", 0, 1000, 19, true)});
+    for (const double distance : {2.2, 2.6, 3.0, 4.0})
+        for (const glm::ivec2 size : {glm::ivec2(640, 480), {400, 300}, {1200, 900}}) {
+            const glm::dvec3 eye = eyeAt(-90, 90 - 1e-6, distance);
+            const Drawn d(ocean(), eye, size), other(nameless, eye, size);
+            EXPECT_FALSE(d.label("depth (m)") || d.label("depth")) << distance;
+            EXPECT_TRUE(d.label("lon") && d.label("lat")) << distance;
+            EXPECT_EQ(d.meshes.labels.covers(), other.meshes.labels.covers()) << distance;
+        }
+}
+
+// On a cube whose names are too wide for the margin beside it, they are cut, not moved.
+TEST(Axes, NamesThatAreTooWideAreShortenedBesideTheirEdge) {
+    const std::string name = "height above the reference ellipsoid";
+    const Grid grid({tests::measuredAxis("x", "m", 0, 1, 5), tests::measuredAxis("y", "m", 0, 1, 5),
+                     tests::measuredAxis(name, "m", 0, 1, 5)});
+    std::size_t whole = 0, nameAlone = 0, cut = 0;
+    for (int width = 1400; width >= 500; width -= 10) {
+        const Drawn d(grid, eyeAt(-60, 25, 3.2), {width, 600});
+        whole += d.label(name + " (m)").has_value();
+        nameAlone += !d.label(name + " (m)") && d.label(name);
+        cut += !d.label(name) && d.label("height") && d.label("\u2026");
+    }
+    EXPECT_GT(whole, 0u);
+    EXPECT_GT(nameAlone, 0u);
+    EXPECT_GT(cut, 0u);
 }
 
 TEST(Axes, BothEyesLabelTheSameEdgesAndTicks) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <random>
 
 #include "tests/support/scenes.h"
@@ -60,6 +61,26 @@ TEST(PiecesOutside, AreTheLineButForWhatIsInside) {
                 pieces, [&](const glm::dvec2& piece) { return t >= piece[0] && t <= piece[1]; });
             EXPECT_NE(inside, kept) << i << " at " << t;
         }
+    }
+}
+
+TEST(Distance, IsThatOfTheNearestPlaceOnTheLine) {
+    std::mt19937 random(7);
+    const auto number = [&] { return static_cast<double>(random() % 9); };
+    for (int i = 0; i < 3000; ++i) {
+        const glm::dvec2 a(number(), number()), b(number(), number());
+        const glm::dvec2 c(number(), number()), d(number(), number());
+        if (c.x == d.x || c.y == d.y) continue;
+        const PixelRect rect{glm::min(c, d), glm::max(c, d)};
+        constexpr int kSteps = 200;
+        double least = 1e9;
+        for (int k = 0; k <= kSteps; ++k) {
+            const glm::dvec2 at = glm::mix(a, b, static_cast<double>(k) / kSteps);
+            least = std::min(least, glm::distance(at, glm::clamp(at, rect.lo, rect.hi)));
+        }
+        // Between two steps the distance changes by no more than half of one.
+        EXPECT_LE(distance(rect, a, b), least + 1e-9) << i;
+        EXPECT_GE(distance(rect, a, b), least - 0.5 * glm::distance(a, b) / kSteps - 1e-9) << i;
     }
 }
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <random>
 
 #include "render/annotate/axes.h"
@@ -30,6 +33,32 @@ std::optional<Rect> find(const FlatMesh& mesh, glm::ivec2 size, const std::strin
 }
 bool titled(const FlatMesh& mesh, glm::ivec2 size, const std::string& text) {
     return tests::find(mesh, fontFor(size), titleStyle(size), text).has_value();
+}
+
+TEST(Legend, CoversWhatItsGroundDoes) {
+    for (const glm::ivec2 size : {glm::ivec2(1024, 1024), {480, 360}, {4096, 2048}}) {
+        const FlatMesh mesh = legendMesh(fire(), fontFor(size), size);
+        const auto covered = coveredByLegend(mesh, size);
+        ASSERT_GE(covered.size(), 2u);  // the column, and the notes
+        std::vector<PixelRect> drawn(covered.size(), {glm::dvec2(1e9), glm::dvec2(-1e9)});
+        const FlatMesh ground = legendGround(mesh, size, glm::dvec3(0));
+        for (const FlatVertex& corner : ground.triangles()) {
+            const glm::dvec2 at(corner.at);
+            const auto in = std::ranges::find_if(covered, [&](const PixelRect& rect) {
+                const PixelRect rounded = rect.grown(1e-3);
+                return at.x >= rounded.lo.x && at.y >= rounded.lo.y && at.x <= rounded.hi.x &&
+                       at.y <= rounded.hi.y;
+            });
+            ASSERT_TRUE(in != covered.end()) << at.x << ' ' << at.y;
+            PixelRect& here = drawn[static_cast<std::size_t>(in - covered.begin())];
+            here = {glm::min(here.lo, at), glm::max(here.hi, at)};
+        }
+        for (std::size_t i = 0; i < covered.size(); ++i) {
+            EXPECT_LT(glm::distance(covered[i].lo, drawn[i].lo), 1e-3);
+            EXPECT_LT(glm::distance(covered[i].hi, drawn[i].hi), 1e-3);
+        }
+    }
+    EXPECT_TRUE(coveredByLegend({}, {800, 600}).empty());
 }
 
 TEST(Legend, SaysEverythingInAnOrdinaryPicture) {
