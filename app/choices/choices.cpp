@@ -88,7 +88,11 @@ constexpr std::array kChoices = {
            "Which variable; without it the one of the most levels, then steps"},
     Choice{"--step", "steps", Form::Text,
            [](const Explorer& e) { return e.steps ? stepsText(*e.steps) : Text(); },
-           [](Explorer& e, std::string_view t) { e.steps = parseSteps(t); }, "Data",
+           [](Explorer& e, std::string_view t) {
+               e.steps = parseSteps(t);
+               e.stepTime.clear();
+           },
+           "Data",
            "A step counted from 0, A:B, A:B:S for every S-th, or all; the middle one without it"},
     Choice{"--keep", "keep", Form::Text,
            [](const Explorer& e) { return e.keep ? e.keep->text() : Text(); },

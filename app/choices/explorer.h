@@ -116,6 +116,9 @@ struct Explorer {
     std::vector<std::filesystem::path> files;
     std::string variable;             // "": the file's first
     std::optional<StepChoice> steps;  // absent: the middle one
+    // Of one step of a session, its time then (timeKept()): whoever opens the data asks for it
+    // once.
+    std::string stepTime = {};
     std::optional<timeseries::RangeSet> keep;
     std::array<AxisChoice, 3> axes;  // x, y, z
     // Empty: a first choice from the data, but for `noLayers`. The first one alone may move.

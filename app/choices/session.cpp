@@ -178,6 +178,7 @@ json toJson(const Explorer& e, const std::filesystem::path& folder, Paths paths)
                 std::filesystem::absolute(file).lexically_normal().generic_string());
     }
     writeChoices(e, out);
+    if (!e.stepTime.empty()) out["stepTime"] = e.stepTime;
     for (const LayerChoice& layer : e.layers) {
         if (layer.motion) continue;  // in "sweep"
         json each = json::object();
@@ -221,6 +222,7 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
         }
     });
     readChoices(object, e);
+    object.read<std::string>("stepTime", [&](const std::string& time) { e.stepTime = time; });
     if (const auto flaw = flawOf(e))
         throw ChoiceError(fmt::format("session.{}: {}", flaw->key, flaw->why));
     object.refuseOthers();

@@ -128,7 +128,11 @@ void FileActions::discardLeft() {
 
 void FileActions::save(const fs::path& file, const std::optional<double>& error) {
     telling(exploration_, [&] {
-        nlohmann::json session = toJson(exploration_.explorer(), file.parent_path());
+        Explorer e = exploration_.explorer();
+        if (const auto shown = exploration_.shown();
+            shown && e.steps == StepChoice{shown->step, shown->step})
+            e.stepTime = timeKept(*shown->dataset.variable.time, shown->step);
+        nlohmann::json session = toJson(e, file.parent_path());
         if (error && std::isfinite(*error)) session[kSessionErrorKey] = *error;
         writeWhole(file, jsonText(session, 2) + "\n");
         exploration_.tell("Saved " + file.string());

@@ -149,6 +149,27 @@ std::string timeText(const timeseries::TimeAxis& axis, std::size_t step) {
                                                  : number + " " + axis.units;
 }
 
+std::string timeKept(const timeseries::TimeAxis& axis, std::size_t step) {
+    const timeseries::TimePoint& point = axis.points[step];
+    if (axis.counted) return "";
+    return point.date.empty() ? fmt::format("{} {} {}", axis.name, point.value, axis.units)
+                              : point.date;
+}
+
+std::size_t stepThen(Dataset& dataset, std::size_t step, const std::string& kept) {
+    const timeseries::TimeAxis& axis = *dataset.variable.time;
+    if (axis.counted || (step < axis.points.size() && timeKept(axis, step) == kept)) return step;
+    std::vector<std::size_t> same;
+    for (std::size_t i = 0; i < axis.points.size(); ++i)
+        if (timeKept(axis, i) == kept) same.push_back(i);
+    dataset.series.notes.push_back(
+        same.size() == 1
+            ? fmt::format("the session's step {}, {}, is step {} now", step, kept, same[0])
+            : fmt::format("the session's step {} was {}, which no step of these is now", step,
+                          kept));
+    return same.size() == 1 ? same[0] : step;
+}
+
 std::string withCommas(std::uint64_t count) {
     std::string text = std::to_string(count);
     for (std::ptrdiff_t at = std::ssize(text) - 3; at > 0; at -= 3)

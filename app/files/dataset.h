@@ -54,6 +54,13 @@ OpenDataset openDataset(std::span<const std::filesystem::path> named, const std:
 // The chosen steps, all there; throws FileError when one is not.
 std::vector<std::size_t> stepsOf(const Dataset& dataset, const StepChoice& choice);
 
+// By what a step is found again in a series that has more steps, or fewer: its date, or its number
+// in its units; "" where steps are counted.
+std::string timeKept(const timeseries::TimeAxis& axis, std::size_t step);
+// The step that has the time kept of this one, where one alone has; else as it is. A note tells
+// what is another than it was.
+std::size_t stepThen(Dataset& dataset, std::size_t step, const std::string& kept);
+
 // "2000-01-04 12:00:00", "1.1 s", or "step 3".
 std::string timeText(const timeseries::TimeAxis& axis, std::size_t step);
 

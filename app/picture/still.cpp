@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/choices/camera.h"
+#include "app/files/dataset.h"
 #include "app/files/picture_files.h"
 #include "app/json_text.h"
 #include "app/picture/depth_error.h"
@@ -33,7 +34,8 @@ DrawnStill drawStill(const Still& still, render::FrameRenderer& renderer, render
         drawn.metadata[kErrorKey] = fmt::format("{:.3g}", *still.error);
         if (!still.errorOf.empty()) drawn.metadata[kErrorOfKey] = still.errorOf;
     }
-    const Explorer alone = onlyThis(e, still.stepIndex, still.tick);
+    Explorer alone = onlyThis(e, still.stepIndex, still.tick);
+    alone.stepTime = timeKept(*still.variable.time, still.stepIndex);
     drawn.metadata[kSessionKey] = jsonText(toJson(alone, file.parent_path(), still.paths), -1);
     return drawn;
 }

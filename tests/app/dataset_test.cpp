@@ -135,6 +135,33 @@ timeseries::Variable sized(const char* name, std::array<std::size_t, 3> n, std::
     return v;
 }
 
+TEST(StepThen, IsFoundByItsTimeInASeriesThatHasOthersBefore) {
+    const auto folder = tests::freshFolder();
+    const auto was = open(timed(folder, "was.nc", {0, 1.5, 2}), "v");
+    const std::string kept = timeKept(*was.variable.time, 1);
+    const auto then = [&](const std::vector<double>& times, std::size_t step) {
+        OpenDataset now = open(timed(folder, "now.nc", times), "v");
+        const std::size_t found = stepThen(now, step, kept);
+        return std::pair(found, now.series.notes);
+    };
+    using Notes = std::vector<std::string>;
+    EXPECT_EQ(then({0, 1.5, 2}, 1), std::pair(std::size_t{1}, Notes{}));
+    EXPECT_EQ(then({0, 1.5}, 1), std::pair(std::size_t{1}, Notes{}));
+    EXPECT_EQ(then({0, 1.5, 1.75, 2.125}, 1), std::pair(std::size_t{1}, Notes{}))
+        << "however many digits its neighbours have";
+    EXPECT_EQ(then({1.5, 2}, 1),
+              std::pair(std::size_t{0}, Notes{"the session's step 1, time 1.5 s, is step 0 now"}));
+    EXPECT_EQ(then({-2, -1, 0, 1.5}, 1),
+              std::pair(std::size_t{3}, Notes{"the session's step 1, time 1.5 s, is step 3 now"}));
+    const Notes gone{"the session's step 1 was time 1.5 s, which no step of these is now"};
+    EXPECT_EQ(then({0, 2}, 1), std::pair(std::size_t{1}, gone));
+    EXPECT_EQ(then({0}, 1), std::pair(std::size_t{1}, gone));
+    EXPECT_EQ(then({1.5, 0, 1.5}, 1), std::pair(std::size_t{1}, gone)) << "which of the two?";
+    // Steps that are counted have their places alone.
+    const TimeAxis counted{"step", "", "", {{0, ""}, {1, ""}}, true};
+    EXPECT_EQ(timeKept(counted, 1), "");
+}
+
 TEST(DefaultVariable, HasTheMostLevelsThenStepsThenPoints) {
     const auto best = [](const std::vector<timeseries::Variable>& all) {
         return all[defaultVariable(all)].name;

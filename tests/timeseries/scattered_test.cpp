@@ -138,6 +138,19 @@ TEST(Scattered, APairCountsTwice) {
     EXPECT_EQ(tests::volume(mesh, 0), tests::volume(mesh, 60));
 }
 
+// Which stands for more than all others reach.
+TEST(Scattered, OneThatIsFarAwayLeavesTheOthersTheirExtent) {
+    Places places = randomPlaces(200, {0, 0, 0}, {1, 1, 1});
+    places.emplace_back(1e9, 0.5, 0.5);
+    double lo = 1, hi = 0;
+    for (const glm::dvec3& each : places) {
+        lo = std::min(lo, each.y);
+        hi = std::max(hi, each.y);
+    }
+    const Grid grid(spaceAxes(), std::make_shared<const Mesh>(meshOfScattered(places)));
+    EXPECT_EQ(grid.axes()[1].coordinates, (std::vector<double>{lo, hi}));
+}
+
 TEST(Scattered, AllAtOnePlaceStandForOneTogether) {
     for (const std::size_t count : {2u, 50u}) {
         const Places places(count, glm::dvec3(3, 4, 5));

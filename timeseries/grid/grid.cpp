@@ -111,13 +111,17 @@ Grid::Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh, bool ofO
       mesh_(std::move(mesh)),
       ofOneStep_(ofOneStep),
       elsewhere_(std::make_shared<Elsewhere>()) {
-    // What rounding leaves across one layer of cells, beside how thick they are: no extent.
-    constexpr double kRounding = 0x1p-24;
+    // What rounding leaves across one layer of cells, beside how thick they are: no extent. Points
+    // alone, one of which may be far from all others and stand for much, were not rounded.
+    const auto points = mesh_->about().points;
+    const bool areAlone =
+        points == MeshAbout::Points::Scattered || points == MeshAbout::Points::Particles;
+    const double rounding = areAlone ? 0 : 0x1p-24;
     for (int a = 0; a < 3; ++a) {
         if (!axes_[a].coordinates.empty()) continue;
         const double lo = mesh_->lo()[a], hi = mesh_->hi()[a];
         axes_[a].coordinates = {lo};
-        if (hi - lo > kRounding * mesh_->widest()[a]) axes_[a].coordinates.push_back(hi);
+        if (hi - lo > rounding * mesh_->widest()[a]) axes_[a].coordinates.push_back(hi);
     }
 }
 

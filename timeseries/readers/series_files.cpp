@@ -335,7 +335,11 @@ ExpandedSeries expandSeries(std::span<const Path> named) {
         std::error_code ignored;
         if (std::filesystem::is_directory(one, ignored)) {
             const Path store = one.has_filename() ? one : one.parent_path();
-            if (isStore(store)) return member(store, Members::Stores);
+            if (isStore(store)) {
+                ExpandedSeries found = member(store, Members::Stores);
+                if (found.files.size() == 1) found.files = {one};  // as it was named
+                return found;
+            }
             if (!isZarr(one)) return folder(one);
         }
         if (std::filesystem::is_regular_file(one, ignored)) return member(one);

@@ -83,9 +83,9 @@ struct VtkFaceTables {
 struct VtkPiece {
     std::uint64_t points = 0, cells = 0;
     VtkNumbers places, connectivity, offsets, types;
-    std::optional<VtkNumbers> faces, faceOffsets;  // of polyhedra, until VTK 9.3
-    std::optional<VtkFaceTables> faceTables;
-    std::array<VtkList, 3> lists;  // of polygons: points, lines, surfaces
+    std::optional<VtkNumbers> faces, faceOffsets;            // of polyhedra, until VTK 9.3
+    std::optional<VtkFaceTables> faceTables = std::nullopt;  // since 9.4
+    std::array<VtkList, 3> lists;                            // of polygons: points, lines, surfaces
 };
 
 struct VtkTime {
