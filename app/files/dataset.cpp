@@ -102,7 +102,7 @@ std::size_t decimalsOf(std::string_view number) {
 // Ten digits, or as many more as tell a time from those beside it; where all are whole, all of
 // them.
 int digitsOf(const timeseries::TimeAxis& axis, std::size_t step) {
-    constexpr double kUsual = 10, kMost = 15;
+    constexpr int kUsual = 10, kMost = 15;
     const auto isWhole = [](const timeseries::TimePoint& p) {
         return std::abs(p.value) < 1e15 && p.value == std::floor(p.value);
     };
@@ -114,8 +114,8 @@ int digitsOf(const timeseries::TimeAxis& axis, std::size_t step) {
             if (const double far = std::abs(value - axis.points[beside].value); far > 0)
                 gap = std::min(gap, far);
     if (!(gap > 0 && std::isfinite(value))) return kUsual;
-    return static_cast<int>(
-        std::clamp(std::ceil(std::log10(std::abs(value) / gap)) + 1, kUsual, kMost));
+    const double digits = std::ceil(std::log10(std::abs(value) / gap)) + 1;
+    return static_cast<int>(std::clamp<double>(digits, kUsual, kMost));
 }
 
 // With as many decimals as the others of the axis, so that a movie's do not jump. Of even steps the

@@ -233,11 +233,12 @@ std::array<glm::dvec3, 2> boxOf(const UnstructuredGrid& grid, const IsUsed& isUs
 
 std::array<glm::dvec3, 2> boxOf(const UnstructuredGrid& grid) {
     std::vector<std::uint8_t> used(grid.points.size());
-    inParts(grid.corners.size(), threadsFor(grid.corners.size(), kCellsAThread),
-            [&](std::size_t first, std::size_t last) {
-                for (; first < last; ++first)
-                    std::atomic_ref(used[grid.corners[first]]).store(1, std::memory_order_relaxed);
-            });
+    // More corners are no cell's.
+    const std::uint64_t corners = grid.ends.empty() || grid.points.empty() ? 0 : grid.ends.back();
+    inParts(corners, threadsFor(corners, kCellsAThread), [&](std::size_t first, std::size_t last) {
+        for (; first < last; ++first)
+            std::atomic_ref(used[grid.corners[first]]).store(1, std::memory_order_relaxed);
+    });
     return boxOf(grid, [&](std::size_t p) { return used[p] != 0; });
 }
 
