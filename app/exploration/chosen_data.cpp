@@ -55,11 +55,7 @@ ChosenData openChosen(const Explorer& choices) {
     if (e.map == render::Map::Globe)
         if (const std::string flaw = globeFlaw(*dataset.variable.grid); !flaw.empty())
             throw ChoiceError(flaw);
-    if (e.steps && !e.stepTime.empty() && e.steps->last == e.steps->first) {
-        const std::size_t step = stepThen(dataset, e.steps->first, e.stepTime);
-        e.steps = StepChoice{step, step};
-    }
-    e.stepTime.clear();
+    findStepThen(dataset, e);
     if (!e.steps) e.steps = StepChoice{dataset.defaultStep, dataset.defaultStep};
     std::vector<std::size_t> steps = stepsOf(dataset, *e.steps);
     auto source = std::make_unique<StepSource>(

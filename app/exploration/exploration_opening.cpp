@@ -93,10 +93,9 @@ void Exploration::takeOpened() {
     wish.variable = dataset.variable.name;
     chooseAxes(dataset, wish.axes);
     const std::size_t last = dataset.stepCount() - 1;
-    StepChoice asked = wish.steps.value_or(StepChoice{dataset.defaultStep, dataset.defaultStep});
-    if (!wish.stepTime.empty() && asked.last == asked.first)
-        asked.first = *(asked.last = stepThen(dataset, asked.first, wish.stepTime));
-    wish.stepTime.clear();
+    findStepThen(dataset, wish);
+    const StepChoice asked =
+        wish.steps.value_or(StepChoice{dataset.defaultStep, dataset.defaultStep});
     const std::size_t first = std::min(asked.first, last);
     // Another variable may have fewer, and is shown at its last.
     const bool isSession = pending_->rest == Pending::Rest::AsWished && pending_->travel == 0;

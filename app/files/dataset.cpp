@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "render/annotate/ticks.h"
 
@@ -99,20 +100,21 @@ std::size_t decimalsOf(std::string_view number) {
     return point == number.npos || number.find('e') != number.npos ? 0 : number.size() - point - 1;
 }
 
-// Ten digits, or as many more as tell a time from those beside it; where all are whole, all of
-// them.
+// Ten digits, or as many more as tell a time from those beside it; a whole one beside whole ones
+// has all of its own.
 int digitsOf(const timeseries::TimeAxis& axis, std::size_t step) {
     constexpr int kUsual = 10, kMost = 15;
-    const auto isWhole = [](const timeseries::TimePoint& p) {
-        return std::abs(p.value) < 1e15 && p.value == std::floor(p.value);
-    };
-    if (std::ranges::all_of(axis.points, isWhole)) return kMost;
+    const auto isWhole = [](double v) { return std::abs(v) < 1e15 && v == std::floor(v); };
     const double value = axis.points[step].value;
     double gap = std::abs(value);
-    for (const std::size_t beside : {step - 1, step + 1})  // of the first, one is beyond all
-        if (beside < axis.points.size())
-            if (const double far = std::abs(value - axis.points[beside].value); far > 0)
-                gap = std::min(gap, far);
+    bool areWhole = isWhole(value);
+    for (const std::size_t beside : {step - 1, step + 1}) {  // of the first, one is beyond all
+        if (beside >= axis.points.size()) continue;
+        const double other = axis.points[beside].value, far = std::abs(value - other);
+        areWhole = areWhole && isWhole(other);
+        if (far > 0) gap = std::min(gap, far);
+    }
+    if (areWhole) return kMost;
     if (!(gap > 0 && std::isfinite(value))) return kUsual;
     const double digits = std::ceil(std::log10(std::abs(value) / gap)) + 1;
     return static_cast<int>(std::clamp<double>(digits, kUsual, kMost));
@@ -168,6 +170,14 @@ std::size_t stepThen(Dataset& dataset, std::size_t step, const std::string& kept
             : fmt::format("the session's step {} was {}, which no step of these is now", step,
                           kept));
     return same.size() == 1 ? same[0] : step;
+}
+
+void findStepThen(Dataset& dataset, Explorer& session) {
+    const std::string kept = std::exchange(session.stepTime, "");
+    std::optional<StepChoice>& steps = session.steps;
+    if (kept.empty() || !steps || steps->last != steps->first) return;
+    const std::size_t step = stepThen(dataset, steps->first, kept);
+    steps = StepChoice{step, step};
 }
 
 std::string withCommas(std::uint64_t count) {

@@ -60,6 +60,8 @@ std::string timeKept(const timeseries::TimeAxis& axis, std::size_t step);
 // The step that has the time kept of this one, where one alone has; else as it is. A note tells
 // what is another than it was.
 std::size_t stepThen(Dataset& dataset, std::size_t step, const std::string& kept);
+// Of a session whose one step has its time kept, `steps` is that step now. It is asked for once.
+void findStepThen(Dataset& dataset, Explorer& session);
 
 // "2000-01-04 12:00:00", "1.1 s", or "step 3".
 std::string timeText(const timeseries::TimeAxis& axis, std::size_t step);

@@ -21,4 +21,11 @@ UnstructuredGrid withoutCells(const UnstructuredGrid& grid, const std::vector<bo
     return kept;
 }
 
+Mesh meshOfPointsWithout(const std::vector<bool>& ghosts, const UnstructuredGrid& grid,
+                         const UnstructuredShapes& shapes) {
+    if (std::ranges::find(ghosts, true) == ghosts.end()) return meshOfPoints(grid, shapes);
+    const UnstructuredGrid own = withoutCells(grid, ghosts);
+    return meshOfPoints(own, UnstructuredShapes(own));
+}
+
 }  // namespace timeseries

@@ -48,7 +48,6 @@ class VtkHdfReader final : public Reader {
     void add(ArrayOf source, const ComponentVariable& component);
     void open(std::size_t step);
     std::shared_ptr<const Grid> gridAt(std::size_t step, bool atPoints);
-    Mesh meshOfOwnPoints(std::size_t step) const;
     std::vector<bool> ghostsOf(std::size_t step, bool atPoints, std::uint64_t count) const;
 
     std::vector<std::filesystem::path> paths_;
@@ -89,14 +88,6 @@ void VtkHdfReader::open(std::size_t step) {
     ghostsAt_ = ghostsAt;
 }
 
-// What a ghost takes up is another cell's, or nobody's.
-Mesh VtkHdfReader::meshOfOwnPoints(std::size_t step) const {
-    const std::vector<bool> ghosts = ghostsOf(step, false, cells_.types.size());
-    if (std::ranges::find(ghosts, true) == ghosts.end()) return meshOfPoints(cells_, *shapes_);
-    const UnstructuredGrid own = withoutCells(cells_, ghosts);
-    return meshOfPoints(own, UnstructuredShapes(own));
-}
-
 std::vector<bool> VtkHdfReader::ghostsOf(std::size_t step, bool atPoints,
                                          std::uint64_t count) const {
     const NcVariable* const ghosts = vtkHdfGhosts(file_.header(), atPoints);
@@ -110,8 +101,10 @@ std::shared_ptr<const Grid> VtkHdfReader::gridAt(std::size_t step, bool atPoints
     if (grid) return grid;
     if (!shapes_) shapes_.emplace(cells_);
     try {
-        const auto mesh = std::make_shared<const Mesh>(atPoints ? meshOfOwnPoints(step)
-                                                                : meshOfCells(cells_, *shapes_));
+        const auto mesh = std::make_shared<const Mesh>(
+            atPoints
+                ? meshOfPointsWithout(ghostsOf(step, false, cells_.types.size()), cells_, *shapes_)
+                : meshOfCells(cells_, *shapes_));
         return grid = std::make_shared<const Grid>(spaceAxes(), mesh);
     } catch (const std::invalid_argument& flaw) {
         file_.fail("VTKHDF",

@@ -206,13 +206,8 @@ bool looksLikeTimeUnits(std::string_view text) {
     return parts && unitRatio(std::string(parts->first), "s").has_value();
 }
 
-std::optional<TimeUnits> TimeUnits::parse(std::string_view text, Calendar calendar) {
-    const auto parts = splitSince(text);
-    if (!parts) return std::nullopt;
-    const auto seconds = secondsOf(parts->first, calendar);
-    if (!seconds || !(*seconds >= 1e-9) || !(*seconds < 9e9)) return std::nullopt;
-
-    Cursor in{parts->second};
+std::optional<TimeReference> referenceOf(std::string_view text, Calendar calendar) {
+    Cursor in{text};
     in.blank();
     auto date = takeDate(in);
     if (!date) return std::nullopt;
@@ -231,14 +226,24 @@ std::optional<TimeUnits> TimeUnits::parse(std::string_view text, Calendar calend
     in.blank();
     if (!zone || !in.rest.empty()) return std::nullopt;
     ns -= *zone;
+    const std::int64_t days = ns >= 0 ? ns / kDayNs : -((kDayNs - 1 - ns) / kDayNs);
+    return TimeReference{dayNumber(calendar, *date) + days, ns - days * kDayNs, hasYearZero};
+}
 
+std::optional<TimeUnits> TimeUnits::parse(std::string_view text, Calendar calendar) {
+    const auto parts = splitSince(text);
+    if (!parts) return std::nullopt;
+    const auto seconds = secondsOf(parts->first, calendar);
+    if (!seconds || !(*seconds >= 1e-9) || !(*seconds < 9e9)) return std::nullopt;
+
+    const auto reference = referenceOf(parts->second, calendar);
+    if (!reference) return std::nullopt;
     TimeUnits units;
     units.calendar_ = calendar;
-    units.hasYearZero_ = hasYearZero;
+    units.hasYearZero_ = reference->hasYearZero;
     units.unitNs_ = std::llround(*seconds * 1e9L);
-    const std::int64_t days = ns >= 0 ? ns / kDayNs : -((kDayNs - 1 - ns) / kDayNs);
-    units.referenceDay_ = dayNumber(calendar, *date) + days;
-    units.referenceNs_ = ns - days * kDayNs;
+    units.referenceDay_ = reference->day;
+    units.referenceNs_ = reference->ns;
     return units;
 }
 

@@ -12,6 +12,14 @@
 
 namespace timeseries {
 
+// What units count from, in UTC: a day as dayNumber(), and nanoseconds of it, less than a day.
+struct TimeReference {
+    std::int64_t day = 0, ns = 0;
+    bool hasYearZero = false;  // its year is written so
+};
+// Nothing when the text is no REFERENCE, as below, or no date of the calendar.
+std::optional<TimeReference> referenceOf(std::string_view text, Calendar calendar);
+
 // "UNIT since REFERENCE" in a calendar.
 class TimeUnits {
  public:

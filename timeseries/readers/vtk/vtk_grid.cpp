@@ -36,12 +36,6 @@ VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
     return result;
 }
 
-// What a ghost takes up is another cell's, or nobody's.
-Mesh meshBesideGhosts(const UnstructuredGrid& cells, const std::vector<bool>& ghosts) {
-    const UnstructuredGrid own = withoutCells(cells, ghosts);
-    return meshOfPoints(own, UnstructuredShapes(own));
-}
-
 }  // namespace
 
 UnstructuredShapes vtkShapesOf(const VtkHeader& header) {
@@ -61,9 +55,8 @@ VtkGrid vtkGridOf(const VtkHeader& header, VtkPlace place, const UnstructuredSha
     result.layout = {{count, 1, 1}, {1, count, count}};
     try {
         const auto mesh = std::make_shared<const Mesh>(
-            place == VtkPlace::Cells    ? meshOfCells(cells, shapes)
-            : header.ghostCells.empty() ? meshOfPoints(cells, shapes)
-                                        : meshBesideGhosts(cells, header.ghostCells));
+            place == VtkPlace::Points ? meshOfPointsWithout(header.ghostCells, cells, shapes)
+                                      : meshOfCells(cells, shapes));
         result.notes = notesOf(cells);
         std::ranges::copy(notesOf(*mesh), std::back_inserter(result.notes));
         result.grid = std::make_shared<Grid>(spaceAxes(), mesh);
