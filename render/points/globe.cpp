@@ -81,11 +81,7 @@ bool isGeographic(const Grid& grid) {
     return x.most - x.least <= kTurn + 1 && std::max(std::abs(x.least), std::abs(x.most)) <= 720;
 }
 
-bool isDepth(const Axis& axis) {
-    constexpr std::array<std::string_view, 7> kPressures{"pa",   "hpa",      "kpa",      "mb",
-                                                         "mbar", "millibar", "millibars"};
-    return axis.down && std::ranges::find(kPressures, lowerCase(axis.units)) == kPressures.end();
-}
+bool isDepth(const Axis& axis) { return axis.down && (metresOf(axis) || saysDepth(axis)); }
 
 Globe::Globe(const Grid& grid, std::optional<double> stretch) {
     constexpr double kFitted = 0.1, kFittedShare = 0.5, kDeepest = 0.9, kHighest = 9;
@@ -101,7 +97,7 @@ Globe::Globe(const Grid& grid, std::optional<double> stretch) {
         turn_ = tilted * glm::transpose(directionsOf(Angle(middle.x), Angle(middle.y)));
     }
     metres_ = metresOf(axis);
-    below_ = metres_ ? (middle.z > 0) == axis.down : isDepth(axis) && saysDepth(axis);
+    below_ = metres_ ? (middle.z > 0) == axis.down : isDepth(axis);
     surface_ = metres_ ? 0 : below_ == axis.down ? z.least : z.most;
 
     const double farthest = std::max(std::abs(z.least - surface_), std::abs(z.most - surface_));

@@ -20,7 +20,8 @@ inline constexpr double kPerDegree = std::numbers::pi / 180;  // in radians
 // Whether the first two axes are longitude and latitude in degrees (CF 1.10, sections 4.1 and 4.2),
 // at most once round.
 bool isGeographic(const timeseries::Grid& grid);
-// Coordinates that count downwards from the surface of the Earth, but for the air's pressure.
+// Coordinates that count downwards from the surface of the Earth: lengths, or what says that it is
+// the sea's. The air's pressures and hybrid levels count down to it.
 bool isDepth(const timeseries::Axis& axis);
 
 // The surface has radius 1 about the origin. At longitude a, latitude b and radius r a place is

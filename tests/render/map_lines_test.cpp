@@ -94,6 +94,9 @@ TEST(MapPlane, IsTheSurfaceOfTheEarth) {
     expect(measuredAxis("pressure", "dbar", 0, 2000, 9, true), 0, 1);
     expect(measuredAxis("lev", "hPa", 10, 1000, 9, true), 1000, -1);
     expect(measuredAxis("lev", "Pa", 100000, 1000, 9, true), 100000, -1);
+    expect(measuredAxis("lev", "hybrid_sigma_pressure", 4, 993, 9, true), 993, -1);
+    expect(measuredAxis("lev", "level", 1, 60, 9, true), 60, -1);
+    expect(measuredAxis("ocean_sigma", "1", 0, 1, 9, true), 0, 1);
     expect(measuredAxis("height", "m", 10, 20000, 9), 10, -1);
     expect(measuredAxis("level", "index", 0, 8, 9), 0, -1);
 }

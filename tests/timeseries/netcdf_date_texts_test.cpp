@@ -22,16 +22,20 @@ using tests::series;
 using tests::timesOf;
 using Path = std::filesystem::path;
 
+struct Names {
+    std::string times = "Times", calendar = "calendar";
+};
+
 // As WRF writes them: v(Time, y = 2, x = 2), every value of step t being first + t, and the rows as
 // characters of `Times`.
 Path dated(const std::string& name, const std::vector<std::string>& rows, float first = 0,
-           const std::string& calendar = "", int mode = NC_NETCDF4) {
+           const std::string& calendar = "", int mode = NC_NETCDF4, const Names& names = {}) {
     NetcdfBuilder file(name, mode);
     const int t = file.dimension("Time", rows.size()),
               length = file.dimension("DateStrLen", rows[0].size()), y = file.dimension("y", 2),
               x = file.dimension("x", 2);
-    const int times = file.variable("Times", NC_CHAR, {t, length});
-    if (!calendar.empty()) file.text(NC_GLOBAL, "calendar", calendar);
+    const int times = file.variable(names.times, NC_CHAR, {t, length});
+    if (!calendar.empty()) file.text(NC_GLOBAL, names.calendar, calendar);
     const int v = file.variable("v", NC_FLOAT, {t, y, x});
     std::string all;
     std::vector<float> values;
@@ -71,6 +75,21 @@ TEST(NetcdfDateTexts, DatesInTextAreOfTheFilesCalendar) {
     EXPECT_EQ(reader->variables()[0].time->points[1].date, "2000-03-01 00:00:00");
     EXPECT_THAT(timesOf(*reader), ElementsAre(0, 86400));
     EXPECT_THAT(timesOf(*open(dated("b.nc", rows))), ElementsAre(0, 2 * 86400));
+}
+
+// MPAS calls them otherwise, fills 64 characters, and counts years from a model's first.
+TEST(NetcdfDateTexts, DatesInTextOfMpasAreTimes) {
+    const auto padded = [](std::string date) { return date + std::string(64 - date.size(), ' '); };
+    const std::vector<std::string> rows{padded("0004-02-28_00:00:00"),
+                                        padded("0004-03-01_00:00:00")};
+    const Names names{"xtime", "config_calendar_type"};
+    for (const auto& [calendar, days] :
+         {std::pair("gregorian_noleap", 1), std::pair("360day", 3), std::pair("gregorian", 2)}) {
+        const auto reader = open(dated("a.nc", rows, 0, calendar, 0, names));
+        EXPECT_THAT(timesOf(*reader), ElementsAre(0, days * 86400)) << calendar;
+        EXPECT_EQ(reader->variables()[0].time->name, "xtime");
+        EXPECT_EQ(reader->variables()[0].time->points[1].date, "0004-03-01 00:00:00") << calendar;
+    }
 }
 
 TEST(NetcdfDateTexts, DatesInTextMayHaveFractions) {

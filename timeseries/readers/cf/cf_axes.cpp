@@ -282,7 +282,7 @@ const NcVariable* FileAxes::coordinateOf(const NcVariable& variable, std::size_t
 const NcVariable* FileAxes::textsAlong(const NcVariable& variable, std::size_t position) const {
     const std::size_t dimension = variable.dimensions[position];
     const std::string& own = header_.dimensions[dimension].name;
-    for (const std::string_view name : {std::string_view(own), kTextTimes}) {
+    for (const std::string_view name : {std::string_view(own), kTextTimes[0], kTextTimes[1]}) {
         const NcVariable* found = find(name, variable.group);
         if (!found || found->type || found->dimensions.empty()) continue;
         if (found->dimensions.size() <= 2 && found->dimensions[0] == dimension) return found;

@@ -3,6 +3,7 @@
 // places one after another, as meshes have it.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,8 +23,8 @@ std::optional<AxisKind> kindByName(std::string_view name);
 // Degrees along the equator, by its units (CF 1.10, section 4.2) or its standard name.
 bool isLongitude(const NcVariable& coordinate);
 
-// What WRF calls the texts of its times.
-inline constexpr std::string_view kTextTimes = "Times";
+// What WRF and MPAS call the texts of their times.
+inline constexpr std::array<std::string_view, 2> kTextTimes{"Times", "xtime"};
 
 // Positions in NcVariable::dimensions.
 struct Roles {
@@ -43,8 +44,8 @@ class FileAxes {
     // The coordinate variable of a dimension: one-dimensional, numeric, of its name, else named by
     // the attribute `coordinates`, the variable's own before others'. Null if none, or several.
     const NcVariable* coordinateOf(const NcVariable& variable, std::size_t position) const;
-    // What has texts along a dimension that may be its times: of its name, else as WRF calls them.
-    // Null if none.
+    // What has texts along a dimension that may be its times: of its name, else as models call
+    // them. Null if none.
     const NcVariable* textsAlong(const NcVariable& variable, std::size_t position) const;
     Roles rolesOf(const NcVariable& variable) const;
 

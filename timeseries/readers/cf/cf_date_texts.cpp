@@ -16,8 +16,10 @@ std::string calendarOfTexts(const NcHeader& header, const NcVariable& texts) {
     if (std::string own = texts.text("calendar"); !own.empty()) return own;
     const NcGroup* const root = header.findGroup("");
     if (!root) return "";
-    const std::string name = root->text("calendar");
-    return name.empty() ? root->text("CALENDAR") : name;
+    for (const char* const name :
+         {"calendar", "CALENDAR", "config_calendar_type"})  // the last, MPAS
+        if (std::string calendar = root->text(name); !calendar.empty()) return calendar;
+    return "";
 }
 
 // As it may stand in a note: short, and of one line.

@@ -1,4 +1,5 @@
-// Times that a file has as texts of dates: WRF's "Times", and what xarray and others write.
+// Times that a file has as texts of dates: WRF's "Times", MPAS's "xtime", and what xarray and
+// others write.
 #pragma once
 
 #include "timeseries/readers/cf/cf_file.h"

@@ -317,6 +317,15 @@ Packing packingOf(const NcVariable& variable, const Malformed& malformed) {
     return packing;
 }
 
+Number asMeant(const Packing& packing, const Number& stored) {
+    if (floating(packing.stored)) return stored;
+    Number meant = stored;
+    withType(packing.stored, [&](auto t) {
+        if (const auto n = storedNumber<decltype(t)>(stored, true)) meant = numberOf(*n);
+    });
+    return meant;
+}
+
 void unpack(const Packing& packing, const StridedLayout& layout,
             const std::function<void(void*)>& read, Field& field) {
     const std::size_t points = layout.size[0] * layout.size[1] * layout.size[2];

@@ -42,6 +42,10 @@ std::optional<Number> defaultFill(ValueType stored);
 Packing packingOf(const NcVariable& variable,
                   const std::function<void(const std::string&)>& malformed);
 
+// A stored number of that variable, or of an attribute of its type, as the file means it: with
+// _Unsigned the bits are of the other signedness.
+Number asMeant(const Packing& packing, const Number& stored);
+
 // Fills `field`'s values and mask. `read` puts the stored numbers where it is told: straight into
 // the field's values when they need no unpacking nor turning.
 void unpack(const Packing& packing, const StridedLayout& layout,

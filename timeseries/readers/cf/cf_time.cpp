@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "timeseries/readers/cf/cf_date_texts.h"
-#include "timeseries/readers/cf/cf_packing.h"
+#include "timeseries/readers/cf/cf_values.h"
 #include "timeseries/readers/series_files.h"
 #include "timeseries/readers/text/calendar.h"
 #include "timeseries/readers/text/time_units.h"
@@ -63,21 +63,11 @@ void countDays(StoredTimes& times) {
 }
 
 void readCoordinate(const CfFile& file, const NcVariable& time, StoredTimes& times) {
-    const Packing packing =
-        packingOf(time, [&](const std::string& what) { file.failAttribute(time, what); });
     times.name = time.baseName();
     times.units = time.text("units");
     times.calendar = time.text("calendar");
     times.counted = false;
-    times.values = file.numbers(time);
-    for (Number& value : times.values) {
-        const bool missing = std::ranges::any_of(
-            packing.missing, [&](const Number& fill) { return compare(value, fill) == 0; });
-        if (missing)
-            value = std::nan("");
-        else if (packing.scaled)
-            value = packing.unpack(toDouble(value));
-    }
+    times.values = numbersOf(file, time);
     countDays(times);
 }
 

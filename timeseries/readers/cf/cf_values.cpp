@@ -8,15 +8,26 @@
 
 namespace timeseries {
 
-std::vector<double> valuesOf(const CfFile& file, const NcVariable& coordinate) {
+std::vector<Number> numbersOf(const CfFile& file, const NcVariable& coordinate) {
     const Packing packing = packingOf(
         coordinate, [&](const std::string& what) { file.failAttribute(coordinate, what); });
-    std::vector<double> values;
-    for (const Number& stored : file.numbers(coordinate)) {
-        const bool missing = std::ranges::any_of(
-            packing.missing, [&](const Number& fill) { return compare(stored, fill) == 0; });
-        values.push_back(missing ? std::nan("") : packing.unpack(toDouble(stored)));
+    std::vector<Number> numbers = file.numbers(coordinate);
+    for (Number& number : numbers) {
+        number = asMeant(packing, number);
+        const bool isMissing = std::ranges::any_of(
+            packing.missing, [&](const Number& fill) { return compare(number, fill) == 0; });
+        if (isMissing)
+            number = std::nan("");
+        else if (packing.scaled)
+            number = packing.unpack(toDouble(number));
     }
+    return numbers;
+}
+
+std::vector<double> valuesOf(const CfFile& file, const NcVariable& coordinate) {
+    const std::vector<Number> numbers = numbersOf(file, coordinate);
+    std::vector<double> values(numbers.size());
+    std::ranges::transform(numbers, values.begin(), toDouble);
     return values;
 }
 

@@ -8,8 +8,9 @@
 
 namespace timeseries {
 
-// In the file's order; not a number where the file has none. REQUIRES: a numeric type. Throws
-// FileError.
+// In the file's order, whole ones exactly; not a number where the file has none. REQUIRES: a
+// numeric type. Throws FileError.
+std::vector<Number> numbersOf(const CfFile& file, const NcVariable& coordinate);
 std::vector<double> valuesOf(const CfFile& file, const NcVariable& coordinate);
 
 // A whole turn in degrees or radians; 0 of what comes round to itself in another measure, or not at

@@ -47,14 +47,15 @@ bool isCategories(const NcVariable& variable) {
 }
 
 // None of bit fields, of which several may be set, and where not each value has one name.
-std::vector<ClassName> classesOf(const NcVariable& variable) {
-    const std::vector<double> values = variable.numbers("flag_values");
+std::vector<ClassName> classesOf(const NcVariable& variable, const Packing& packing) {
+    const std::vector<double> values = variable.numbers("flag_values");  // as they are stored
     std::vector<std::string> names = words(variable.text("flag_meanings"));
     std::vector<ClassName> classes;
     if (variable.find("flag_masks") || names.size() != values.size()) return classes;
     for (std::size_t i = 0; i < names.size(); ++i) {
         std::ranges::replace(names[i], '_', ' ');
-        classes.push_back({values[i], std::move(names[i])});
+        classes.push_back(
+            {packing.unpack(toDouble(asMeant(packing, values[i]))), std::move(names[i])});
     }
     return classes;
 }
@@ -122,10 +123,10 @@ FileVariable describe(const CfFile& file, const FileAxes& fileAxes, const NcVari
         result.lengths.push_back(header.dimension(variable, i).length);
     result.type = *variable.type;
     result.categories = isCategories(variable);
-    result.classes = classesOf(variable);
     result.roles = roles;
     result.packing =
         packingOf(variable, [&](const std::string& what) { file.failAttribute(variable, what); });
+    result.classes = classesOf(variable, result.packing);
     result.times = timesOf(file, fileAxes, variable, roles);
     result.axes = axesOf(file, fileAxes, variable, roles, geographic, list, result.notes);
     return result;

@@ -257,7 +257,7 @@ void NetcdfFile::readStrings() {
         if (variable.type || variable.dimensions.size() != 1) continue;
         const NcDimension& along = header_.dimension(variable, 0);
         const std::string_view name = variable.baseName();
-        if (name != along.name && name != kTextTimes) continue;
+        if (name != along.name && std::ranges::count(kTextTimes, name) == 0) continue;
         nc_type type = NC_NAT;
         if (along.length > kMaxStrings || variable.chunkBytes > kMaxStrings ||
             nc_inq_vartype(variable.groupId, variable.id, &type) != NC_NOERR || type != NC_STRING)

@@ -81,7 +81,7 @@ Calendar ruleOf(Calendar calendar, std::int64_t day) {
 }  // namespace
 
 std::optional<Calendar> calendarFromName(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, Calendar>, 12> kNames{{
+    static constexpr std::array<std::pair<std::string_view, Calendar>, 14> kNames{{
         {"", Calendar::Standard},
         {"standard", Calendar::Standard},
         {"gregorian", Calendar::Standard},
@@ -91,9 +91,11 @@ std::optional<Calendar> calendarFromName(std::string_view name) {
         {"julian", Calendar::Julian},
         {"noleap", Calendar::NoLeap},
         {"365_day", Calendar::NoLeap},
+        {"gregorian_noleap", Calendar::NoLeap},  // MPAS, as 360day
         {"all_leap", Calendar::AllLeap},
         {"366_day", Calendar::AllLeap},
         {"360_day", Calendar::Day360},
+        {"360day", Calendar::Day360},
     }};
     std::string lower;
     for (const char c : name) {
