@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "tests/support/read_variables.h"
@@ -50,7 +52,7 @@ void expectValues(const std::filesystem::path& store, const std::string& told) {
     const Variable& variable = reader->variables()[0];
     EXPECT_EQ(variable.time->points.size(), 3u) << told;
     EXPECT_EQ(variable.grid->size(), (std::array<std::size_t, 3>{7, 4, 5})) << told;
-    for (const std::size_t step : {0, 2, 1})
+    for (const std::size_t step : {0, 1, 2, 0})  // of which chunks have two
         EXPECT_EQ(valuesOf<T>(*reader, variable.name, step), expected<T>(kLayout.shape, step))
             << told << ", step " << step;
 }
@@ -79,6 +81,22 @@ void expectBothVersions(const std::string& code, const std::string& name) {
         writeChunks<T>(store / "v", layout, valueAt<T>);
         expectValues<T>(store, name + (bigEndian ? " big" : " little"));
     }
+}
+
+// Chunks of several steps are unpacked once, but for those that were written since.
+TEST(Zarr, ChunksThatAreWrittenAnewAreReadAnew) {
+    const auto store = v2Group();
+    put(store / "v/.zarray", v2Array(kLayout, "<i4"));
+    writeChunks<std::int32_t>(store / "v", kLayout, valueAt<std::int32_t>);
+    const auto reader = open(store);
+    EXPECT_EQ(valuesOf<std::int32_t>(*reader, "v", 0), expected<std::int32_t>(kLayout.shape, 0));
+    const auto other = [](const Lengths& at) { return ~valueAt<std::int32_t>(at); };
+    writeChunks<std::int32_t>(store / "v", kLayout, other);
+    for (const auto& file : std::filesystem::directory_iterator(store / "v"))
+        std::filesystem::last_write_time(file, file.last_write_time() + std::chrono::seconds(1));
+    std::vector<std::int32_t> anew = expected<std::int32_t>(kLayout.shape, 1);
+    for (std::int32_t& value : anew) value = ~value;
+    EXPECT_EQ(valuesOf<std::int32_t>(*reader, "v", 1), anew);
 }
 
 TEST(Zarr, NumbersOfAllTypesAndByteOrdersAreTheFiles) {

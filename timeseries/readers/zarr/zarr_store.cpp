@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 class FileInFolder final : public ZarrStoreFile {
  public:
-    FileInFolder(std::ifstream file, std::uint64_t bytes)
-        : ZarrStoreFile(bytes), file_(std::move(file)) {}
+    FileInFolder(std::ifstream file, std::uint64_t bytes, std::int64_t written)
+        : ZarrStoreFile(bytes, written), file_(std::move(file)) {}
 
  private:
     ZarrBytes readWithin(std::uint64_t from, std::uint64_t count) override {
@@ -70,7 +70,8 @@ std::unique_ptr<ZarrStoreFile> ZarrFolder::open(const std::string& name) const {
     std::ifstream file(path, std::ios::binary);
     const std::uint64_t bytes = fs::file_size(path, error);
     if (!file || error) throw std::invalid_argument("expected a file that can be read");
-    return std::make_unique<FileInFolder>(std::move(file), bytes);
+    const auto written = fs::last_write_time(path, error).time_since_epoch().count();
+    return std::make_unique<FileInFolder>(std::move(file), bytes, written);
 }
 
 double ZarrFolder::bytesBelow(const std::string& folder, double enough) const {

@@ -15,12 +15,15 @@ namespace timeseries {
 // A file that is asked for parts of itself.
 class ZarrStoreFile {
  public:
-    explicit ZarrStoreFile(std::uint64_t bytes) : bytes_(bytes) {}
+    explicit ZarrStoreFile(std::uint64_t bytes, std::int64_t written = 0)
+        : bytes_(bytes), written_(written) {}
     virtual ~ZarrStoreFile() = default;
     ZarrStoreFile(const ZarrStoreFile&) = delete;
     ZarrStoreFile& operator=(const ZarrStoreFile&) = delete;
 
     std::uint64_t bytes() const { return bytes_; }
+    // When it was written last, in the file system's own count; 0 where the store is one file.
+    std::int64_t written() const { return written_; }
     // REQUIRES: it may take so much memory. Throws std::invalid_argument: what was expected and
     // found.
     ZarrBytes read(std::uint64_t from, std::uint64_t count);
@@ -30,6 +33,7 @@ class ZarrStoreFile {
     virtual ZarrBytes readWithin(std::uint64_t from, std::uint64_t count) = 0;
 
     std::uint64_t bytes_;
+    std::int64_t written_;
 };
 
 // One thread at a time.

@@ -137,24 +137,25 @@ std::string ZarrValues::fileOf(const Index& chunk) const {
     return zarrJoined(array_.folder, name.empty() ? "0" : name);
 }
 
-std::optional<ZarrBytes> ZarrValues::packed(const Index& chunk) {
-    if (array_.shards) return packedInShard(chunk);
+std::optional<ZarrValues::Packed> ZarrValues::find(const Index& chunk) {
+    if (array_.shards) return findInShard(chunk);
     chunkFile_ = fileOf(chunk);
-    const auto file = store_.open(chunkFile_);
+    auto file = store_.open(chunkFile_);
     if (!file) return std::nullopt;
-    const std::uint64_t most = mostPackedBytes(array_.chunkBytes());
-    if (file->bytes() > most)
+    const std::uint64_t most = mostPackedBytes(array_.chunkBytes()), bytes = file->bytes();
+    if (bytes > most)
         throw std::invalid_argument(
             fmt::format("expected at most {} bytes for {} of values, found "
                         "{}",
-                        most, array_.chunkBytes(), file->bytes()));
-    return file->read(0, file->bytes());
+                        most, array_.chunkBytes(), bytes));
+    return Packed{std::move(file), 0, bytes};
 }
 
 void ZarrValues::openShard(const std::string& name) {
     shardFile_.clear();
     shardIndex_.clear();
     if (const auto file = store_.open(name)) {
+        shardWritten_ = file->written();
         std::uint64_t bytes = 2 * sizeof(std::uint64_t);
         for (std::size_t d = 0; d < array_.chunk.size(); ++d)
             bytes *= array_.shards->shape[d] / array_.chunk[d];
@@ -170,7 +171,7 @@ void ZarrValues::openShard(const std::string& name) {
     shardFile_ = name;
 }
 
-std::optional<ZarrBytes> ZarrValues::packedInShard(const Index& chunk) {
+std::optional<ZarrValues::Packed> ZarrValues::findInShard(const Index& chunk) {
     Index shard(chunk.size());
     std::uint64_t number = 0;  // of the chunk in its shard, in C order
     for (std::size_t d = 0; d < chunk.size(); ++d) {
@@ -179,7 +180,9 @@ std::optional<ZarrBytes> ZarrValues::packedInShard(const Index& chunk) {
         number = number * along + chunk[d] % along;
     }
     chunkFile_ = fileOf(shard);
-    if (chunkFile_ != shardFile_) openShard(chunkFile_);
+    auto file = store_.open(chunkFile_);
+    if (chunkFile_ != shardFile_ || (file && file->written() != shardWritten_))
+        openShard(chunkFile_);
     if (shardIndex_.empty()) return std::nullopt;
     const std::uint64_t from = shardIndex_[2 * number], bytes = shardIndex_[2 * number + 1];
     if (from == kNoChunk && bytes == kNoChunk) return std::nullopt;
@@ -188,21 +191,42 @@ std::optional<ZarrBytes> ZarrValues::packedInShard(const Index& chunk) {
         throw std::invalid_argument(
             fmt::format("expected at most {} bytes for {} of values, found {} in the shard's index",
                         most, array_.chunkBytes(), bytes));
-    const auto file = store_.open(chunkFile_);
     if (!file) throw std::invalid_argument("expected the shard, but it has gone");
-    return file->read(from, bytes);
+    return Packed{std::move(file), from, bytes};
 }
 
-std::optional<ZarrBytes> ZarrValues::unpacked(const Index& chunk) {
+const ZarrBytes* ZarrValues::unpacked(const Index& chunk) {
     try {
-        auto bytes = packed(chunk);
-        if (!bytes) return std::nullopt;
-        *bytes = unpackZarrChunk(std::move(*bytes), array_.codecs, array_.chunkBytes());
-        if (array_.swapped) swapBytes(*bytes, array_.valueBytes());
-        return bytes;
+        const auto packed = find(chunk);
+        if (!packed) return nullptr;
+        const auto known = kept_.find(chunk);
+        const std::int64_t written = packed->file->written();
+        if (known != kept_.end() && known->second.written == written) return &known->second.bytes;
+        if (!keeps_) kept_.clear();
+        ZarrBytes bytes = unpackZarrChunk(packed->file->read(packed->from, packed->bytes),
+                                          array_.codecs, array_.chunkBytes());
+        if (array_.swapped) swapBytes(bytes, array_.valueBytes());
+        return &kept_.insert_or_assign(chunk, Kept{written, std::move(bytes)}).first->second.bytes;
     } catch (const std::invalid_argument& flaw) {
         throw FileError(fmt::format("{}: {}", store_.told(chunkFile_), flaw.what()));
     }
+}
+
+void ZarrValues::keepOnly(const Index& first, const Index& last,
+                          std::span<const std::size_t> count) {
+    double bytes = static_cast<double>(array_.chunkBytes());
+    bool haveMore = false;  // than the block
+    for (std::size_t d = 0; d < first.size(); ++d) {
+        bytes *= static_cast<double>(last[d] - first[d] + 1);
+        haveMore = haveMore || (count[d] < array_.chunk[d] && count[d] < array_.shape[d]);
+    }
+    keeps_ = haveMore && bytes <= kMaxZarrKept;
+    std::erase_if(kept_, [&](const auto& each) {
+        const Index& chunk = each.first;
+        for (std::size_t d = 0; d < first.size(); ++d)
+            if (chunk[d] < first[d] || chunk[d] > last[d]) return true;
+        return !keeps_;
+    });
 }
 
 void ZarrValues::read(std::span<const std::size_t> start, std::span<const std::size_t> count,
@@ -219,9 +243,10 @@ void ZarrValues::read(std::span<const std::size_t> start, std::span<const std::s
     if (chunks > static_cast<double>(kMaxZarrChunks))
         throw FileError(fmt::format("{}: expected a step in at most {} chunks, found {:.0f}",
                                     store_.told(array_.folder), kMaxZarrChunks, chunks));
+    keepOnly(first, last, count);
     const auto fill = array_.fillBytes();
     for (Index chunk = first;;) {
-        const auto bytes = unpacked(chunk);
+        const ZarrBytes* const bytes = unpacked(chunk);
         const Overlap both = overlapOf(array_, chunk, start, count);
         withBytes(array_.valueBytes(), [&](auto n) {
             if (bytes)

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +18,9 @@ namespace timeseries {
 // The most chunks that one block may touch: a step of 2^32 points in chunks of 32 x 32 x 32 has
 // half as many.
 constexpr std::uint64_t kMaxZarrChunks = std::uint64_t{1} << 18;
+// The chunks of one block are kept, up to so many bytes, where they hold those of others, too: of
+// further steps, mostly.
+constexpr double kMaxZarrKept = 1 << 28;
 
 class ZarrValues {
  public:
@@ -32,18 +37,32 @@ class ZarrValues {
 
  private:
     using Index = std::vector<std::uint64_t>;
+    struct Packed {
+        std::unique_ptr<ZarrStoreFile> file;
+        std::uint64_t from = 0, bytes = 0;  // of it
+    };
+    struct Kept {
+        std::int64_t written;  // the file that it is of
+        ZarrBytes bytes;
+    };
     std::string fileOf(const Index& chunk) const;
-    std::optional<ZarrBytes> unpacked(const Index& chunk);
-    std::optional<ZarrBytes> packed(const Index& chunk);
-    std::optional<ZarrBytes> packedInShard(const Index& chunk);
+    // Null where it was never written. Throws FileError.
+    const ZarrBytes* unpacked(const Index& chunk);
+    std::optional<Packed> find(const Index& chunk);
+    std::optional<Packed> findInShard(const Index& chunk);
     void openShard(const std::string& name);
+    // Of those before, the chunks of the block that is read, if they may be wanted again.
+    void keepOnly(const Index& first, const Index& last, std::span<const std::size_t> count);
 
     const ZarrStore& store_;
     const ZarrArray& array_;
     std::string chunkFile_;  // the file looked at last: whose flaws are told
     // Of the shard that was looked at last: where each chunk lies. Empty of one that is missing.
     std::string shardFile_;
+    std::int64_t shardWritten_ = 0;
     std::vector<std::uint64_t> shardIndex_;
+    std::map<Index, Kept> kept_;
+    bool keeps_ = false;  // all of the block's, else the last alone
 };
 
 }  // namespace timeseries
