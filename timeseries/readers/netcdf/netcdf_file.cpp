@@ -20,6 +20,7 @@
 #include "timeseries/readers/forked_call.h"
 #include "timeseries/readers/limits.h"
 #include "timeseries/readers/netcdf/classic_layout.h"
+#include "timeseries/readers/netcdf/kept_chunks.h"
 #include "timeseries/readers/netcdf/netcdf_types.h"
 #include "timeseries/readers/reader.h"
 
@@ -204,6 +205,7 @@ void NetcdfFile::read(const NcVariable& variable, std::span<const std::size_t> s
                       std::span<const std::size_t> count, void* values) const {
     const std::string place = placeOf(variable);
     const LibraryLock lock;
+    keepChunks(variable, start, count);
     check(nc_get_vara(variable.groupId, variable.id, start.data(), count.data(), values), place,
           "values that can be read");
 }
