@@ -319,6 +319,10 @@ TEST(InSitu, WhatCannotBeIsRefusedOnAllRanksAndTheFileStays) {
                 }),
                 HasSubstr("rows and slices"));
     EXPECT_THAT(refusal([&](isochron_step& s) {
+                    if (last) s.slice = s.row * (s.size[1] - 1) + s.size[0] - 1;
+                }),
+                HasSubstr("20 and 438 values, found them 22 and 437 apart"));
+    EXPECT_THAT(refusal([&](isochron_step& s) {
                     if (last) s.size[2] = 1;
                 }),
                 HasSubstr("of the grid's"));

@@ -103,6 +103,20 @@ Field fieldOf(const isochron_step& step, const GridBox& box) {
 
 constexpr std::uint64_t kMostApart = std::uint64_t{1} << 40;  // values; 8 TB of doubles
 
+// REQUIRES: a box of some points.
+void expectApart(const isochron_step& step, const GridBox& box) {
+    if (step.row > kMostApart || step.slice > kMostApart)
+        throw Refused(fmt::format("expected rows and slices in memory, found them {} and {} apart",
+                                  step.row, step.slice));
+    const std::uint64_t row = step.row ? step.row : box.size[0];
+    const std::uint64_t held = row * (box.size[1] - 1) + box.size[0];  // by a slice
+    if (row < box.size[0] || (box.size[2] > 1 && step.slice && step.slice < held))
+        throw Refused(
+            fmt::format("expected rows and slices that are apart by no less than they hold, {} and "
+                        "{} values, found them {} and {} apart",
+                        box.size[0], held, row, step.slice ? step.slice : held));
+}
+
 void writeStepOf(const Ranks& ranks, const char* path, const isochron_step* given) {
     ranks.agreed([&] {
         if (!given) throw Refused("expected a step");
@@ -124,13 +138,7 @@ void writeStepOf(const Ranks& ranks, const char* path, const isochron_step* give
     std::optional<WholeFile> file;
     ranks.agreed([&] {
         if (box.count() > 0 && !step.values) throw Refused("expected the values of its box");
-        if (box.count() > 0 && ((step.row && step.row < box.size[0]) ||
-                                (step.slice && step.slice < (step.row ? step.row : box.size[0]))))
-            throw Refused("expected rows and slices that are apart by no less than they hold");
-        if (box.count() > 0 && (step.row > kMostApart || step.slice > kMostApart))
-            throw Refused(
-                fmt::format("expected rows and slices in memory, found them {} and {} apart",
-                            step.row, step.slice));
+        if (box.count() > 0) expectApart(step, box);
         withType(static_cast<ValueType>(step.type),
                  [&]<typename T>(T) { field = fieldOf<T>(step, box); });
         if (!ranks.isFirst()) return;

@@ -1,7 +1,8 @@
 /* A simulation in miniature that writes sorted steps while it runs: a wave in a box, cut into slabs,
  * with a layer of ghost cells below and above each.
  *
- *   mpicc wave.c -lisochron_step -lm -o wave && mpirun -n 4 ./wave 64 10 wave
+ *   mpicc wave.c -IPREFIX/include -LPREFIX/lib -Wl,-rpath,PREFIX/lib -lisochron_step -lm -o wave
+ *   mpirun -n 4 ./wave 64 10 wave
  *   isochron wave_*.isostep
  */
 #include <math.h>
