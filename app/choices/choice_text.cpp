@@ -93,6 +93,8 @@ constexpr std::array<std::pair<std::string_view, render::Map>, 2> kMaps = {
 
 constexpr std::array<std::pair<std::string_view, Projection>, 2> kProjections = {
     {{"perspective", Projection::Perspective}, {"orthographic", Projection::Orthographic}}};
+constexpr std::array<std::pair<std::string_view, bool>, 2> kLegends = {
+    {{"shown", true}, {"hidden", false}}};
 constexpr std::array<std::pair<std::string_view, timeseries::Ending>, 3> kEndings = {
     {{"once", timeseries::Ending::Once},
      {"loop", timeseries::Ending::Loop},
@@ -290,6 +292,8 @@ Projection parseProjection(std::string_view name) {
 std::string_view projectionName(Projection projection) {
     return nameOf<Projection>(projection, kProjections);
 }
+bool parseLegend(std::string_view name) { return named<bool>("legend", name, kLegends); }
+std::string_view legendName(bool shown) { return nameOf(shown, Names<bool>(kLegends)); }
 timeseries::Ending parseEnding(std::string_view name) {
     return named<timeseries::Ending>("ending", name, kEndings);
 }

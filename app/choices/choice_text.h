@@ -57,6 +57,8 @@ double parseNumber(std::string_view what, std::string_view text);
 
 Projection parseProjection(std::string_view name);  // perspective orthographic
 std::string_view projectionName(Projection projection);
+bool parseLegend(std::string_view name);  // shown hidden
+std::string_view legendName(bool shown);
 timeseries::Ending parseEnding(std::string_view name);  // once loop ping-pong
 std::string_view endingName(timeseries::Ending ending);
 Stereo parseStereo(std::string_view name);  // off side-by-side top-bottom multiview left-right

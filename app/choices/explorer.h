@@ -138,6 +138,7 @@ struct Explorer {
     render::Map map = render::Map::Flat;  // a globe: of longitudes and latitudes alone
     ViewChoice view;
     StereoChoice stereo;
+    bool legend = true;  // in the picture; a figure may have a caption instead
     glm::ivec2 size{1200, 900};
     PlayChoice play;
 

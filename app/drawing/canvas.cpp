@@ -261,8 +261,12 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     state_->tell(report, drawn);
 
     state_->timer.begin();
-    const render::FrameContent content{
-        drawn, screen->sorted->grid(), std::move(legend), kBackground, rung.across, scene.placards};
+    const render::FrameContent content{drawn,
+                                       screen->sorted->grid(),
+                                       asDrawn(screen->explorer, std::move(legend)),
+                                       kBackground,
+                                       rung.across,
+                                       scene.placards};
     const auto frame = state_->renderer.prepare(content, screen->held->onGpu, eyes);
     double cost = 0;
     for (std::size_t i = 0; i < eyes.size(); ++i) {
@@ -301,7 +305,8 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
         render::Legend legend = state_->telling.legend(*screen, scene, true);
         const bool atOnce = state_->keepsTo(limits, scene, eyes);
         resting.emplace(state_->renderer, state_->order, *screen,
-                        Picture{std::move(scene), std::move(legend)}, eyes, atOnce);
+                        Picture{std::move(scene), asDrawn(screen->explorer, std::move(legend))},
+                        eyes, atOnce);
     }
     Refinement& refinement = resting->refinement;
     if (refinement.order()) {

@@ -100,6 +100,10 @@ bool isMixed(const Explorer& e, const render::Scene& scene) {
     return render::isMixed(scene, eyes(e.view, e.stereo, scene.placed.outline(), e.size).front());
 }
 
+render::Legend asDrawn(const Explorer& e, render::Legend legend) {
+    return e.legend ? std::move(legend) : render::Legend{};
+}
+
 Picture makePicture(const Explorer& e, const timeseries::Variable& variable, std::size_t stepIndex,
                     const SortedStep& step, const render::PlacedPoints& placed, std::int64_t tick) {
     render::Scene scene = makeScene(e, step, placed, tick);

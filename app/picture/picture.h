@@ -49,6 +49,8 @@ render::Legend makeLegend(const Explorer& explorer, const timeseries::Variable& 
 bool isMixed(const Explorer& explorer, const render::Scene& scene);
 inline constexpr const char* kMixedColors =
     "colours mixed, not in depth order (--order depth, or Quality: By depth)";
+// What the picture has of it: all, or nothing where none is wanted.
+render::Legend asDrawn(const Explorer& explorer, render::Legend legend);
 // Whether a note of the legend holds only where the scene is drawn by cells.
 bool isOfCells(const std::string& note);
 struct Picture {

@@ -28,8 +28,9 @@ DrawnStill drawStill(const Still& still, render::FrameRenderer& renderer, render
     for (const render::Layer& layer : picture.scene.layers)
         drawn.points += render::pointCount(layer);
     if (drawn.mixed) picture.legend.notes.emplace_back(kMixedColors);
-    drawn.eyes = renderer.render({picture.scene, still.step.grid(), picture.legend, kBackground},
-                                 onGpu, views, extras);
+    drawn.eyes = renderer.render(
+        {picture.scene, still.step.grid(), asDrawn(e, std::move(picture.legend)), kBackground},
+        onGpu, views, extras);
     if (still.error && std::isfinite(*still.error)) {
         drawn.metadata[kErrorKey] = fmt::format("{:.3g}", *still.error);
         if (!still.errorOf.empty()) drawn.metadata[kErrorOfKey] = still.errorOf;

@@ -141,6 +141,7 @@ TEST_F(OptionsWithSession, AnOptionBesideItWinsAndLeavesTheRest) {
     expectOnly({"--target", "1,2,3"}, [](Explorer& e) { e.view.target = {1, 2, 3}; });
     expectOnly({"--orthographic"},
                [](Explorer& e) { e.view.projection = Projection::Orthographic; });
+    expectOnly({"--no-legend"}, [](Explorer& e) { e.legend = false; });
     expectOnly({"--hide", "2"}, [](Explorer& e) { e.layers[1].visible = false; });
     expectOnly({"--size", "5x6"}, [](Explorer& e) { e.size = {5, 6}; });
     expectOnly({"--stereo", "off"}, [](Explorer& e) { e.stereo.mode = Stereo::Off; });

@@ -56,7 +56,7 @@ TEST(Options, HelpListsEveryOptionOfRenderAndView) {
           "--size",      "--stereo",   "--eye-distance", "--convergence", "--channel",
           "--device",    "--output",   "--hide",         "--target",      "--orthographic",
           "--tick",      "--portable", "--flip",         "--name-axis",   "--splatter",
-          "--model"}) {
+          "--model",     "--no-legend"}) {
         EXPECT_THAT(help, HasSubstr(option));
         const bool isOfFiles =
             std::set<std::string_view>{"--device", "--splatter", "--channel", "--portable"}
