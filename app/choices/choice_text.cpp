@@ -220,6 +220,7 @@ void takeView(ViewChoice& view, std::string_view text) {
             text, kNearest, kFarthest));
     view.azimuthDegrees = (*n)[0];
     view.elevationDegrees = (*n)[1];
+    view.chosen = true;
     view.distance = n->size() == 3 ? std::optional((*n)[2]) : std::nullopt;
 }
 std::string viewText(const ViewChoice& view) {

@@ -226,10 +226,16 @@ constexpr std::array kChoices = {
            "AZIMUTH,ELEVATION[,DISTANCE]: degrees, and half diagonals"},
     Choice{"", "view.azimuth", Form::Number,
            [](const Explorer& e) { return numberText(e.view.azimuthDegrees); },
-           [](Explorer& e, std::string_view t) { e.view.azimuthDegrees = number(t); }},
+           [](Explorer& e, std::string_view t) {
+               e.view.azimuthDegrees = number(t);
+               e.view.chosen = true;
+           }},
     Choice{"", "view.elevation", Form::Number,
            [](const Explorer& e) { return numberText(e.view.elevationDegrees); },
-           [](Explorer& e, std::string_view t) { e.view.elevationDegrees = number(t); }},
+           [](Explorer& e, std::string_view t) {
+               e.view.elevationDegrees = number(t);
+               e.view.chosen = true;
+           }},
     Choice{
         "", "view.distance", Form::Number,
         [](const Explorer& e) { return numberText(e.view.distance); },

@@ -84,7 +84,12 @@ struct ViewChoice {
     std::optional<double> distance;
     glm::dvec3 target{0};  // world: half diagonals of the box from its centre
     Projection projection = Projection::Perspective;
-    friend bool operator==(const ViewChoice&, const ViewChoice&) = default;
+    // Whether these angles were asked for (see first_look.h): no part of what is seen.
+    bool chosen = false;
+    friend bool operator==(const ViewChoice& a, const ViewChoice& b) {
+        return a.azimuthDegrees == b.azimuthDegrees && a.elevationDegrees == b.elevationDegrees &&
+               a.distance == b.distance && a.target == b.target && a.projection == b.projection;
+    }
 };
 
 enum class Stereo { Off, SideBySide, TopBottom, MultiView, LeftRight };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -50,16 +51,23 @@ class JsonObject {
     }
 
  private:
+    // As JSON has one kind of number, 1.0 is one too; beyond these no double is a certain one.
+    static bool isWhole(const nlohmann::json& value) {
+        constexpr double kMostCertain = 1ll << 53;
+        if (!value.is_number_float())
+            return value.is_number_integer() &&
+                   (!value.is_number_unsigned() ||
+                    value.get<std::uint64_t>() <= std::numeric_limits<std::int64_t>::max());
+        const auto number = value.get<double>();
+        return std::trunc(number) == number && std::abs(number) < kMostCertain;
+    }
     // Stricter than nlohmann's conversions, which take true for 1 and 2.7 for 2.
     template <typename T>
     static bool is(const nlohmann::json& value) {
         if constexpr (std::is_same_v<T, std::string>) return value.is_string();
         if constexpr (std::is_same_v<T, bool>) return value.is_boolean();
         if constexpr (std::is_same_v<T, double>) return value.is_number();
-        if constexpr (std::is_same_v<T, std::int64_t>)
-            return value.is_number_integer() &&
-                   (!value.is_number_unsigned() ||
-                    value.get<std::uint64_t>() <= std::numeric_limits<std::int64_t>::max());
+        if constexpr (std::is_same_v<T, std::int64_t>) return isWhole(value);
         if constexpr (std::is_same_v<T, std::vector<std::string>>)
             return value.is_array() && std::ranges::all_of(value, is<std::string>);
         if constexpr (std::is_same_v<T, std::vector<double>>)

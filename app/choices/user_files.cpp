@@ -1,8 +1,11 @@
 #include "app/choices/user_files.h"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <system_error>
 
+#include "render/image/image.h"
 #include "render/image/picture_file.h"
 
 namespace app {
@@ -29,8 +32,14 @@ fs::path stateFolder() { return folder("XDG_STATE_HOME", ".local/state"); }
 fs::path cacheFolder() { return folder("XDG_CACHE_HOME", ".cache"); }
 
 void makeFoldersOf(const fs::path& file) {
-    std::error_code ignored;
-    fs::create_directories(file.parent_path(), ignored);
+    const fs::path folder = file.parent_path();
+    std::error_code failed;
+    if (folder.empty() || fs::is_directory(folder, failed)) return;
+    fs::create_directories(folder, failed);
+    if (failed)
+        throw render::ImageError(file, fmt::format("cannot be created: its folder {} is not there "
+                                                   "and cannot be made: {}",
+                                                   folder.string(), failed.message()));
 }
 
 void writeWhole(const fs::path& file, const std::string& text) {

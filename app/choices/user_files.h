@@ -14,7 +14,7 @@ std::filesystem::path configFolder();
 std::filesystem::path stateFolder();
 std::filesystem::path cacheFolder();
 
-// The folders that a file is to be in. What cannot be made is told by who writes the file.
+// The folders that a file is to be in. Throws std::runtime_error, one sentence that names the file.
 void makeFoldersOf(const std::filesystem::path& file);
 
 // Makes the folders too. A file that appears under its name is complete. Throws std::runtime_error,

@@ -7,8 +7,10 @@
 #include "app/choices/camera.h"
 #include "app/choices/choice_text.h"
 #include "app/choices/clip_flaw.h"
+#include "app/choices/decimals.h"
 #include "app/choices/idle_choices.h"
 #include "app/choices/map_flaw.h"
+#include "app/choices/user_files.h"
 #include "app/command/commands.h"
 #include "app/command/drawing_device.h"
 #include "app/exploration/chosen_data.h"
@@ -22,7 +24,9 @@
 #include "app/picture/range_label.h"
 #include "app/picture/still.h"
 #include "app/say.h"
+#include "render/annotate/ticks.h"
 #include "render/frame/mean_depth.h"
+#include "timeseries/index/number.h"
 
 namespace app {
 namespace {
@@ -30,6 +34,9 @@ namespace {
 using timeseries::SortedStep;
 
 void tellStyle(const Explorer& e, const timeseries::Variable& variable) {
+    const auto end = [&](double value) {
+        return render::withMinusSigns(timeseries::toText(shortestIn(variable.type, value)));
+    };
     for (const LayerChoice& layer : e.layers) {
         if (!layer.visible) continue;
         std::string color;
@@ -37,7 +44,7 @@ void tellStyle(const Explorer& e, const timeseries::Variable& variable) {
             color = colorText(*rgb);
         } else {
             const auto& map = std::get<MapChoice>(*layer.color);
-            color = fmt::format("{} from {:g} to {:g}", map.map.name(), *map.lo, *map.hi);
+            color = fmt::format("{} from {} to {}", map.map.name(), end(*map.lo), end(*map.hi));
         }
         const auto& ranges = layer.motion ? layer.motion->animation : layer.ranges;
         say("  {}: {}, opacity {:.2g}\n", rangeLabel(ranges, variable.units), color,
@@ -110,6 +117,15 @@ MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSourc
         }
     }
     return error;
+}
+
+// One picture's is no other's: those of a series may differ by any factor.
+void tellError(const MiddleError& error, const FrameFiles& frames, Stereo stereo) {
+    const std::size_t others = frames.size() - 1;
+    if (others == 0) return say("  {}\n", error.text);
+    say("  {} in {}; {} not known\n", error.text, filesOf(error.of, stereo).front().string(),
+        others == 1 ? "the other picture's is"
+                    : fmt::format("those of the other {} pictures are", others));
 }
 
 // Writes a picture while the next one is drawn.
@@ -206,6 +222,7 @@ int renderHeadless(const RenderOptions& options) {
     const DrawingDevice device(options.by);
     render::FrameRenderer renderer(device.splatter());
     const FrameFiles frames(options.output, e, chosen.steps, dataset.stepCount());
+    makeFoldersOf(frames.output());  // before the work: what cannot be made is told at once
     const MiddleError error = errorOfMiddle(e, frames, *chosen.source);
     const auto [mixed, empty, flat, why] =
         drawFrames(options, e, dataset.variable, frames, error, *chosen.source, renderer);
@@ -222,16 +239,14 @@ int renderHeadless(const RenderOptions& options) {
             inSome(mixed), render::kMixedDepth);
     if (empty > 0)
         say("  note: 0 points are selected{}{}\n", e.clip ? " in the clip box" : "", inSome(empty));
+    if (const std::string leftOut = frames.leftOut(); !leftOut.empty())
+        say("  note: {}; --timer-steps says how many\n", leftOut);
     if (flat > 0) say("  note: what is drawn lies flat{}: {}\n", inSome(flat), why);
     for (const std::string& idle : idleChoices(options.explorer)) say("  note: {}\n", idle);
     if (options.byPointsAlone)
         say("  note: drawn by points, for --splatter exact draws no cells\n");
     tellStyle(e, dataset.variable);
-    if (!error.text.empty())
-        say("  {}{}\n", error.text,
-            frames.size() == 1
-                ? ""
-                : fmt::format(" in {}", filesOf(error.of, e.stereo.mode).front().string()));
+    if (!error.text.empty()) tellError(error, frames, e.stereo.mode);
     if (const auto* const sweep = sweepOf(e); sweep && !e.oneTick && sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
             static_cast<double>(frames.size()) * sweep->frequency, sweep->frequency);

@@ -116,6 +116,12 @@ void keepData(const MeasureOptions& options) {
         }
 }
 
+// Before anything is measured, so that what cannot be made is told at once.
+void makeFolders(const MeasureOptions& options) {
+    for (const std::filesystem::path& out : {options.csv, options.svg, options.png})
+        makeFoldersOf(out);
+}
+
 void writeFiles(const MeasureOptions& options, const std::vector<Measured>& modes,
                 const std::string& title) {
     if (!options.csv.empty()) writeWhole(options.csv, csv(modes));
@@ -123,7 +129,6 @@ void writeFiles(const MeasureOptions& options, const std::vector<Measured>& mode
     const Plot plot = tradePlot(modes, title);
     if (!options.svg.empty()) writeWhole(options.svg, plotSvg(plot));
     if (options.png.empty()) return;
-    makeFoldersOf(options.png);
     render::writePng(options.png, plotPicture(plot));
 }
 
@@ -143,6 +148,7 @@ int measureModes(const MeasureOptions& options) {
     if (!step->canHaveCells())
         throw ChoiceError(
             fmt::format("measure needs the cells between the points: {}", step->whyNoCells()));
+    makeFolders(options);
     std::uint64_t selected = 0;
     for (const LayerChoice& layer : data.explorer.layers)
         if (layer.visible)

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/panels/field_text.h"
+
 namespace app::desktop {
 namespace {
 
@@ -109,7 +111,7 @@ class Feed {
         return key_ = true;
     }
     bool operator()(const Character& e) {
-        io_.AddInputCharacter(e.code);
+        for (const char32_t c : panels::fieldCharacters(e.code)) io_.AddInputCharacter(c);
         return true;
     }
     bool operator()(const FocusChanged& e) {
@@ -137,11 +139,11 @@ Gui::Gui(Window& window, float scale) : window_(window) {
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
-    io.ClipboardUserData = &window_;
-    io.SetClipboardTextFn = [](void* w, const char* text) {
-        static_cast<Window*>(w)->setClipboard(text);
+    io.ClipboardUserData = this;
+    io.SetClipboardTextFn = [](void* gui, const char* text) {
+        static_cast<Gui*>(gui)->window_.setClipboard(panels::meantText(text));
     };
-    io.GetClipboardTextFn = [](void* w) { return static_cast<Window*>(w)->clipboard(); };
+    io.GetClipboardTextFn = [](void* gui) { return static_cast<Gui*>(gui)->pasted(); };
     mapKeys(io);
     theme_ = panels::makeTheme(scale);
     if (!ImGui_ImplOpenGL3_Init("#version 450 core"))
@@ -151,6 +153,13 @@ Gui::Gui(Window& window, float scale) : window_(window) {
 Gui::~Gui() {
     ImGui_ImplOpenGL3_Shutdown();
     ImGui::DestroyContext();
+}
+
+const char* Gui::pasted() {
+    const char* const text = window_.clipboard();
+    if (text == nullptr) return nullptr;
+    pasted_ = panels::fieldText(text);
+    return pasted_.c_str();
 }
 
 void Gui::setScale(float scale) {

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/desktop/window.h"
@@ -38,8 +39,11 @@ class Gui {
     void draw();      // ends the frame and draws it over what stands in the window
 
  private:
+    const char* pasted();  // as ImGui asks for the clipboard; null: there is no text
+
     Window& window_;
     panels::Theme theme_;
+    std::string pasted_;
 };
 
 }  // namespace app::desktop

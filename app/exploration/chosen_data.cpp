@@ -6,6 +6,7 @@
 
 #include "app/choices/choice_text.h"
 #include "app/choices/clip_flaw.h"
+#include "app/choices/first_look.h"
 #include "app/choices/map_flaw.h"
 #include "app/files/chosen_axes.h"
 #include "app/files/progress.h"
@@ -55,6 +56,7 @@ ChosenData openChosen(const Explorer& choices) {
     if (e.map == render::Map::Globe)
         if (const std::string flaw = globeFlaw(*dataset.variable.grid); !flaw.empty())
             throw ChoiceError(flaw);
+    lookFirst(e, *dataset.variable.grid);
     findStepThen(dataset, e);
     if (!e.steps) e.steps = StepChoice{dataset.defaultStep, dataset.defaultStep};
     std::vector<std::size_t> steps = stepsOf(dataset, *e.steps);

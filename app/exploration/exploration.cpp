@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/choices/choice_text.h"
+#include "app/choices/first_look.h"
 #include "app/choices/map_flaw.h"
 #include "app/exploration/exploration_state.h"
 #include "app/exploration/followed_playback.h"
@@ -48,6 +49,7 @@ void Exploration::change(Explorer next, std::string_view gesture) {
             if (next.map == render::Map::Globe && explorer().map != next.map)
                 if (const std::string flaw = globeFlaw(open_->sorted->grid()); !flaw.empty())
                     throw ChoiceError(flaw);
+            followMap(next, explorer().map, open_->sorted->grid());
             if (needsSamples(next)) next = resolved(next, {{open_->step, open_->sorted}});
             timeseries::Playback playback = followed(playback_, explorer(), next);
             open_->counts = pointCounts(next, *open_->sorted);

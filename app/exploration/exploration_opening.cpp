@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/choices/clip_flaw.h"
+#include "app/choices/first_look.h"
 #include "app/choices/map_flaw.h"
 #include "app/exploration/exploration_state.h"
 #include "app/exploration/followed_playback.h"
@@ -166,6 +167,7 @@ void Exploration::adopt(LiveSteps::Arrival first) {
             tell(std::move(flaw), true);
             next.map = render::Map::Flat;
         }
+    lookFirst(next, first.sorted->grid());
     timeseries::Playback playback;
     try {
         if (needsSamples(next)) next = resolved(next, {{first.step, first.sorted}});

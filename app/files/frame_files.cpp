@@ -41,6 +41,13 @@ std::string FrameFiles::names() const {
                        last.filename().string());
 }
 
+std::string FrameFiles::leftOut() const {
+    if (count_ >= steps_.size()) return "";
+    const std::size_t left = steps_.size() - count_;
+    return fmt::format("{} of {} steps {} no picture: the sweep has {} tick{}", left, steps_.size(),
+                       left == 1 ? "has" : "have", count_, count_ == 1 ? "" : "s");
+}
+
 std::size_t FrameFiles::fileCount() const { return count_ * filesOf(front().file, stereo_).size(); }
 
 std::optional<std::size_t> FrameFiles::numbered(std::size_t number) const {

@@ -37,6 +37,9 @@ class FrameFiles {
     // "OUT.png", "OUT_left.png and OUT_right.png", "OUT_03.png to OUT_12.png".
     std::string names() const;
 
+    // One sentence where a cycle of the sweep has fewer pictures than there are steps; else "".
+    std::string leftOut() const;
+
     // How many files the pictures go into, two of a picture with an eye each, and how many of these
     // there are by now.
     std::size_t fileCount() const;

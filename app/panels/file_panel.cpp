@@ -1,13 +1,11 @@
 #include "app/panels/file_panel.h"
 
 #include <fmt/format.h>
-#include <imgui_stdlib.h>
 
 #include <cstdlib>
 
 #include "app/choices/paths.h"
 #include "app/exploration/export_job.h"
-#include "app/files/frame_files.h"
 
 namespace app::panels {
 namespace {
@@ -104,13 +102,16 @@ std::string FilePanel::flaw(const fs::path& path) const {
     return *for_ == For::Save || isPicture ? "" : "Its name ends in .png or in .exr";
 }
 
-std::string FilePanel::warning(const PanelContext& context, const fs::path& path) const {
+FrameFiles FilePanel::pictures(const PanelContext& context, const fs::path& path) {
     const auto shown = context.exploration.shown();
+    const Explorer animation = animationOf(context.exploration.explorer(), shown->dataset);
+    return {path, animation, stepsOf(shown->dataset, *animation.steps), shown->dataset.stepCount()};
+}
+
+std::string FilePanel::warning(const PanelContext& context, const fs::path& path) const {
     std::size_t files = 1, existing = 0;
-    if (*for_ == For::Export && shown) {
-        const Explorer animation = animationOf(context.exploration.explorer(), shown->dataset);
-        const FrameFiles frames(path, animation, stepsOf(shown->dataset, *animation.steps),
-                                shown->dataset.stepCount());
+    if (*for_ == For::Export && context.exploration.shown()) {
+        const FrameFiles frames = pictures(context, path);
         files = frames.fileCount();
         existing = frames.existing();
     } else {
@@ -153,9 +154,7 @@ void FilePanel::draw(PanelContext& context) {
                      {right, at.min.y + 64 * s + ImGui::GetFrameHeight()}};
     if (takesText("##path", field) || focus_) ImGui::SetKeyboardFocusHere();
     focus_ = false;
-    const bool entered = ImGui::InputTextWithHint(
-        "##path", "type a path, or choose below", &typed_,
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    const bool entered = inputText("##path", "type a path, or choose below", typed_);
     if (ImGui::IsItemActivated()) focus().touch(ImGui::GetID("##path"));
     drawList(context, {{left, at.min.y + 104 * s}, {right, at.max.y - 60 * s}});
 
@@ -172,11 +171,8 @@ void FilePanel::draw(PanelContext& context) {
             list(folder_);
         }
     }
-    if (!answer_.empty() && answeredTo_ == chosen().string()) {
-        const float from = *for_ == For::Open ? left + 192 * s : left;
-        text(theme, {from, y + 15 * s}, fitting(*theme.text, answer_, right - 220 * s - from),
-             kError);
-    }
+    drawAnswer(context,
+               {{*for_ == For::Open ? left + 192 * s : left, y}, {right - 220 * s, y + 30 * s}});
     if (textButton(theme, "Cancel", {{right - 208 * s, y}, {right - 108 * s, y + 30 * s}},
                    "Cancel"))
         close();
@@ -195,6 +191,17 @@ void FilePanel::draw(PanelContext& context) {
         }
     }
     end();
+}
+
+void FilePanel::drawAnswer(const PanelContext& context, const Rect& at) const {
+    const bool answered = !answer_.empty() && answeredTo_ == chosen().string();
+    const bool exports = *for_ == For::Export && context.exploration.shown();
+    const std::string line = answered  ? answer_
+                             : exports ? pictures(context, chosen()).leftOut()
+                                       : "";
+    if (line.empty()) return;
+    text(context.theme, {at.min.x, at.centre().y}, fitting(*context.theme.text, line, at.size().x),
+         kError);
 }
 
 void FilePanel::drawList(PanelContext& context, const Rect& at) {

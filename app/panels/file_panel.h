@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/files/folder_listing.h"
+#include "app/files/frame_files.h"
 #include "app/panels/panel_context.h"
 #include "app/panels/widgets.h"
 
@@ -34,6 +35,10 @@ class FilePanel {
     // What speaks against the path, a line: nothing is there to be opened, or nothing can be
     // written there. "" when nothing does.
     std::string flaw(const std::filesystem::path& path) const;
+    // The animation's pictures. REQUIRES: something is shown.
+    static FrameFiles pictures(const PanelContext& context, const std::filesystem::path& path);
+    // What is to be known before it is taken: the last answer, else which steps are left out.
+    void drawAnswer(const PanelContext& context, const Rect& at) const;
     // What would be replaced, asked as one line; "" when nothing would.
     std::string warning(const PanelContext& context, const std::filesystem::path& path) const;
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "app/panels/field_text.h"
+
 namespace app::panels {
 namespace {
 
@@ -211,6 +213,14 @@ bool takesText(const char* id, const Rect& at) {
     return turn.came || turn.entered;
 }
 
+bool inputText(const char* id, const char* hint, std::string& text) {
+    std::string held = fieldText(text);
+    const bool entered = ImGui::InputTextWithHint(
+        id, hint, &held, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    text = meantText(held);
+    return entered;
+}
+
 std::optional<std::string> TextField::draw(const Theme& theme, const char* id, const Rect& at,
                                            std::string_view shown, const char* hint) {
     const bool isLeft = !active_ && focus().place() == ImGui::GetID(id) &&
@@ -223,9 +233,7 @@ std::optional<std::string> TextField::draw(const Theme& theme, const char* id, c
     const float pad = 0.5f * (at.size().y - theme.text->FontSize);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {8 * theme.scale, std::max(0.0f, pad)});
     if (takesText(id, at)) ImGui::SetKeyboardFocusHere();
-    const bool entered = ImGui::InputTextWithHint(
-        id, hint, &typed_,
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    const bool entered = inputText(id, hint, typed_);
     ImGui::PopStyleVar();
     if (ImGui::IsItemActivated()) focus().touch(ImGui::GetID(id));
     active_ = ImGui::IsItemActive();

@@ -59,6 +59,9 @@ bool rangeSlider(const Theme& theme, const char* id, const Rect& at, double& lo,
 // Makes ImGui's field `id`, which follows, a control; true when it is to take the text now.
 bool takesText(const char* id, const Rect& at);
 
+// ImGui's field, of any bytes (field_text.h): whether Enter was pressed.
+bool inputText(const char* id, const char* hint, std::string& text);
+
 // A field of text that reports what was entered (Enter, or leaving the field) and takes the shown
 // text again otherwise. Keeps what is being typed while it is active.
 class TextField {

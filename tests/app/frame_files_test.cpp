@@ -135,6 +135,21 @@ TEST(FrameFiles, OfOneCycleOfASweepSpanTheStepsOnce) {
     }
 }
 
+TEST(FrameFiles, OfASweepWithFewerTicksThanStepsLeaveStepsOutAndSaySo) {
+    const std::vector<std::size_t> steps = {0, 1, 2, 3, 4, 5, 6};
+    const FrameFiles few("s.png", sweeping(4), steps);
+    EXPECT_EQ(few.leftOut(), "3 of 7 steps have no picture: the sweep has 4 ticks");
+    EXPECT_EQ(FrameFiles("s.png", sweeping(6), steps).leftOut(),
+              "1 of 7 steps has no picture: the sweep has 6 ticks");
+    const std::vector<std::size_t> shown = stepsOf(few);
+    for (std::size_t i = 1; i < shown.size(); ++i) EXPECT_LT(shown[i - 1], shown[i]);
+    EXPECT_EQ(FrameFiles("s.png", sweeping(7), steps).leftOut(), "");
+    EXPECT_EQ(FrameFiles("s.png", {}, steps).leftOut(), "");
+    Explorer stands = sweeping(4);
+    stands.oneTick = true;
+    EXPECT_EQ(FrameFiles("s.png", stands, steps).leftOut(), "");
+}
+
 TEST(FrameFiles, OfTheLongestCycleTakeNoRoom) {
     const FrameFiles frames("s.png", sweeping(std::int64_t{1} << 30), {0, 1});
     EXPECT_EQ(frames.size(), std::size_t{1} << 30);

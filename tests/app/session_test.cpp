@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "render/image/exr.h"
@@ -33,6 +34,25 @@ TEST(Session, EveryExplorerComesBackAsItWas) {
             ASSERT_TRUE(back == e)
                 << "case " << i << ": " << text << "\nbecame " << toJson(back, folder).dump();
         }
+    }
+}
+
+// 3.0 for each 3, as other programs write whole numbers.
+json asDoubles(json value) {
+    if (value.is_structured())
+        for (json& each : value) each = asDoubles(std::move(each));
+    if (!value.is_number_integer()) return value;
+    const auto number = value.get<double>();
+    return std::abs(number) < 0x1p53 ? json(number) : value;
+}
+
+TEST(Session, WholeNumbersMayHaveAPoint) {
+    RandomExplorer next(21);
+    for (int i = 0; i < tests::rounds(200); ++i) {
+        const Explorer e = next();
+        const std::string text = asDoubles(toJson(e, "/data")).dump();
+        ASSERT_THAT(text, HasSubstr("\"isochron\":1.0"));
+        ASSERT_TRUE(fromJson(json::parse(text), "/data") == e) << "case " << i << ": " << text;
     }
 }
 

@@ -73,6 +73,12 @@ TEST_F(ATextField, GivesWhatWasEntered) {
     EXPECT_FALSE(told_);
 }
 
+// Beyond 16 bits, and Latin-1.
+TEST_F(ATextField, KeepsTheCharactersThatImGuiHasNot) {
+    shown_ = "😀 caf\xE9";
+    EXPECT_EQ(enter(""), std::nullopt) << "it is as shown";
+}
+
 TEST_F(ATextField, KeepsWhatItRefusedAndSaysWhyUntilItIsChanged) {
     ASSERT_EQ(enter("abc"), "abc");
     EXPECT_TRUE(told_);

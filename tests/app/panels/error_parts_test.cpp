@@ -42,6 +42,17 @@ TEST_F(ErrorPartsDesk, OpensThemAndAsksForThemAsLongAsTheyAreOpen) {
     EXPECT_FALSE(isOpen());
 }
 
+TEST_F(ErrorPartsDesk, KeepsThePicturesKeysToItself) {
+    desk_.click(place()->centre());
+    ASSERT_TRUE(isOpen());
+    desk_.press(Key::Space);
+    EXPECT_FALSE(desk_.exploration.playback().playing);
+    desk_.press(Key::Escape);
+    desk_.frames(2);
+    desk_.press(Key::Space);
+    EXPECT_TRUE(desk_.exploration.playback().playing);
+}
+
 TEST_F(ErrorPartsDesk, TheErrorLiesBelowThePictureAndNothingElseOpensThem) {
     const Rect at = *place();
     EXPECT_GE(at.min.y, desk_.layout().status.min.y);

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "app/choices/sweep_edits.h"
+#include "app/panels/field_text.h"
 #include "app/panels/file_panel.h"
 #include "tests/support/files.h"
 #include "tests/support/panels_desk.h"
@@ -73,6 +75,44 @@ TEST_F(ExportFiles, OfAFolderMadeWhileItIsAskedAreAskedAbout) {
     tests::writeBytes(folder_ / "later/world_2.png", "");
     EXPECT_EQ(enter(), std::nullopt);
     EXPECT_EQ(enter(), folder_ / "later/world.png");
+}
+
+// How many corners of what was drawn last are red, as what is to be known before pressing is.
+int redCorners() {
+    ImGui::Render();
+    const ImDrawData& drawn = *ImGui::GetDrawData();
+    int count = 0;
+    for (int list = 0; list < drawn.CmdListsCount; ++list)
+        for (const ImDrawVert& corner : drawn.CmdLists[list]->VtxBuffer)
+            if (corner.col == kError) ++count;
+    return count;
+}
+
+TEST_F(ExportFiles, TellBesideTheButtonWhichStepsTheyLeaveOut) {
+    const auto redWith = [&](std::int64_t ticks) {
+        Explorer e = desk_->exploration.explorer();
+        setSweep(e, timeseries::SweepSettings{.animation = timeseries::RangeSet::parse("0:1"),
+                                              .timerSteps = ticks});
+        e.play.timeMoves = e.play.sweepMoves = true;
+        desk_->exploration.edit(e);
+        desk_->frames(3);
+        return redCorners();
+    };
+    const int none = redWith(3);
+    EXPECT_GT(redWith(2), none + 4 * 20) << "letters of a sentence";
+}
+
+// Dear ImGui's fields hold neither of these as it is.
+TEST_F(ExportFiles, HaveNamesOfAnyCharacters) {
+    const auto typeAnew = [&](std::u32string_view text) {
+        desk_->type("x");  // in place of all that stood there
+        for (const char32_t typed : text) {
+            for (const char32_t c : fieldCharacters(typed)) ImGui::GetIO().AddInputCharacter(c);
+            desk_->frame(KeyPress{.key = key('Z')});
+        }
+    };
+    typeAnew(U"é日本😀.png");
+    EXPECT_EQ(enter(), folder_ / "xé日本😀.png");
 }
 
 class FileToOpen : public ExportFiles {
