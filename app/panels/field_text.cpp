@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "render/annotate/utf8.h"
+
 namespace app::panels {
 namespace {
 
@@ -12,47 +14,6 @@ constexpr char32_t kBeyond = 0x10000;  // the first of 2^20 characters
 
 bool isDigit(char32_t c) { return c >= kDigit && c < kDigit + kDigits; }
 bool isStandIn(char32_t c) { return c == kCharacter || c == kByte || isDigit(c); }
-
-void append(std::string& out, char32_t c) {
-    const auto byte = [&](char32_t bits) { out += static_cast<char>(bits); };
-    const auto rest = [&](int shift) { byte(0x80 | ((c >> shift) & 0x3F)); };
-    if (c < 0x80) return byte(c);
-    if (c < 0x800) {
-        byte(0xC0 | c >> 6);
-        return rest(0);
-    }
-    if (c < kBeyond) {
-        byte(0xE0 | c >> 12);
-    } else {
-        byte(0xF0 | c >> 18);
-        rest(12);
-    }
-    rest(6);
-    rest(0);
-}
-
-// The first character of what is not empty, and its bytes; 0 bytes where these are no UTF-8
-// (RFC 3629).
-struct First {
-    char32_t character = 0;
-    std::size_t bytes = 0;
-};
-First firstOf(std::string_view text) {
-    const auto lead = static_cast<unsigned char>(text[0]);
-    if (lead < 0x80) return {lead, 1};
-    const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-    if (lead < 0xC2 || lead > 0xF4 || text.size() < bytes) return {};
-    char32_t c = lead & (0x7F >> bytes);
-    for (const char each : text.substr(1, bytes - 1)) {
-        const auto more = static_cast<unsigned char>(each);
-        if ((more & 0xC0) != 0x80) return {};
-        c = c << 6 | (more & 0x3F);
-    }
-    constexpr char32_t kLeast[] = {0x80, 0x800, kBeyond};
-    const bool isSurrogate = c >= 0xD800 && c < 0xE000;
-    if (c < kLeast[bytes - 2] || c > 0x10FFFF || isSurrogate) return {};
-    return {c, bytes};
-}
 
 std::u32string standIns(char32_t kind, char32_t value, int digits) {
     std::u32string all(1, kind);
@@ -70,38 +31,36 @@ std::u32string fieldCharacters(char32_t typed) {
 std::string fieldText(std::string_view text) {
     std::string field;
     while (!text.empty()) {
-        const First first = firstOf(text);
-        const bool isByte = first.bytes == 0 || isStandIn(first.character);
+        const render::CodePoint first = render::firstPoint(text);
+        const bool isByte = first.isMalformed() || isStandIn(first.point);
         const std::u32string held =
             isByte ? standIns(kByte, static_cast<unsigned char>(text[0]), kDigitsOfByte)
-                   : fieldCharacters(first.character);
-        for (const char32_t c : held) append(field, c);
-        text.remove_prefix(isByte ? 1 : first.bytes);
+                   : fieldCharacters(first.point);
+        for (const char32_t c : held) render::append(field, c);
+        text.remove_prefix(isByte ? 1 : first.length);
     }
     return field;
 }
 
 std::string meantText(std::string_view field) {
     std::string text;
-    const auto next = [&] {
-        const First first = field.empty() ? First{} : firstOf(field);
-        return first.bytes > 0 ? first : First{0, 1};
-    };
     while (!field.empty()) {
-        const First first = next();
-        if (!isStandIn(first.character)) text += field.substr(0, first.bytes);
-        field.remove_prefix(first.bytes);
-        if (first.character != kCharacter && first.character != kByte) continue;
-        const int digits = first.character == kByte ? kDigitsOfByte : kDigitsOfCharacter;
+        const auto [point, length] = render::firstPoint(field);
+        if (!isStandIn(point)) text += field.substr(0, length);
+        field.remove_prefix(length);
+        if (point != kCharacter && point != kByte) continue;
+        const int digits = point == kByte ? kDigitsOfByte : kDigitsOfCharacter;
         char32_t value = 0;
         int read = 0;
-        for (; read < digits && !field.empty() && isDigit(next().character); ++read) {
-            value = value << kBits | (next().character - kDigit);
-            field.remove_prefix(next().bytes);
+        for (; read < digits && !field.empty(); ++read) {
+            const render::CodePoint digit = render::firstPoint(field);
+            if (!isDigit(digit.point)) break;
+            value = value << kBits | (digit.point - kDigit);
+            field.remove_prefix(digit.length);
         }
         if (read < digits) continue;
-        if (first.character == kCharacter)
-            append(text, value + kBeyond);
+        if (point == kCharacter)
+            render::append(text, value + kBeyond);
         else
             text += static_cast<char>(value);
     }

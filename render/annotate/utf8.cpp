@@ -1,18 +1,9 @@
 #include "render/annotate/utf8.h"
 
-#include <cstddef>
-
 namespace render {
 
-namespace {
-
-struct Decoded {
-    char32_t point;
-    std::size_t length;
-};
-
-Decoded decodeFirst(std::string_view text) {
-    constexpr Decoded kMalformed{U'\uFFFD', 1};
+CodePoint firstPoint(std::string_view text) {
+    constexpr CodePoint kMalformed{U'\uFFFD', 1};
     const auto lead = static_cast<unsigned char>(text[0]);
     if (lead < 0x80) return {lead, 1};
     const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
@@ -30,14 +21,29 @@ Decoded decodeFirst(std::string_view text) {
     return {point, length};
 }
 
-}  // namespace
+void append(std::string& utf8, char32_t point) {
+    const auto byte = [&](char32_t bits) { utf8 += static_cast<char>(bits); };
+    const auto rest = [&](int shift) { byte(0x80 | ((point >> shift) & 0x3F)); };
+    if (point < 0x80) return byte(point);
+    if (point < 0x800) {
+        byte(0xC0 | point >> 6);
+    } else if (point < 0x10000) {
+        byte(0xE0 | point >> 12);
+        rest(6);
+    } else {
+        byte(0xF0 | point >> 18);
+        rest(12);
+        rest(6);
+    }
+    rest(0);
+}
 
 std::u32string codePoints(std::string_view utf8) {
     std::u32string points;
     while (!utf8.empty()) {
-        const auto [point, length] = decodeFirst(utf8);
-        points += point;
-        utf8.remove_prefix(length);
+        const CodePoint first = firstPoint(utf8);
+        points += first.point;
+        utf8.remove_prefix(first.length);
     }
     return points;
 }
@@ -46,10 +52,9 @@ std::string wellFormed(std::string_view text) {
     constexpr std::string_view kReplacement = "\uFFFD";
     std::string out;
     while (!text.empty()) {
-        const auto [point, length] = decodeFirst(text);
-        const bool isMalformed = point == U'\uFFFD' && length == 1;
-        out += isMalformed ? kReplacement : text.substr(0, length);
-        text.remove_prefix(length);
+        const CodePoint first = firstPoint(text);
+        out += first.isMalformed() ? kReplacement : text.substr(0, first.length);
+        text.remove_prefix(first.length);
     }
     return out;
 }

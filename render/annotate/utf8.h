@@ -1,10 +1,21 @@
-// UTF-8 to code points (RFC 3629).
+// UTF-8 and code points (RFC 3629).
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace render {
+
+struct CodePoint {
+    char32_t point;
+    std::size_t length;  // of its bytes
+    bool isMalformed() const { return point == U'\uFFFD' && length == 1; }
+};
+// REQUIRES: text that is not empty. A byte that belongs to no well-formed sequence is malformed.
+CodePoint firstPoint(std::string_view text);
+// REQUIRES: a code point of Unicode.
+void append(std::string& utf8, char32_t point);
 
 // Each byte that belongs to no well-formed sequence becomes U+FFFD.
 std::u32string codePoints(std::string_view utf8);
