@@ -15,6 +15,7 @@
 #include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/unstructured.h"
+#include "timeseries/grid/cell_types.h"
 #include "timeseries/readers/netcdf/netcdf_file.h"
 #include "timeseries/readers/reader.h"
 
@@ -221,13 +222,23 @@ TEST(Exodus, KindsThatAreNotKnownAreTold) {
     const auto reader = open(write({.kind = "OCTOPUS"}));
     ASSERT_FALSE(reader->variables()[0].notes.empty());
     EXPECT_EQ(reader->variables()[0].notes[0], "1 elements of the kind \"OCTOPUS\" are not drawn");
+    const MeshAbout* const about = [&]() -> const MeshAbout* {
+        for (const Variable& each : reader->variables())
+            if (each.grid->mesh() && each.grid->mesh()->about().points == MeshAbout::Points::Cells)
+                return &each.grid->mesh()->about();
+        return nullptr;
+    }();
+    ASSERT_NE(about, nullptr);
+    EXPECT_EQ(cellName(*about->typeOf(0), 1), "cell of unknown shape");
 }
 
 TEST(Exodus, WhatDoesNotFitIsRefused) {
     EXPECT_THAT(refusalOf(write({.cube = {1, 2, 5, 4, 7, 8, 11, 13}})),
                 HasSubstr("connect: expected elements of nodes that there are"));
     EXPECT_THAT(refusalOf(write({.cube = {0, 2, 5, 4, 7, 8, 11, 10}})),
-                HasSubstr("cell 0 has point"));
+                HasSubstr("cell 0 has point 0 of"));
+    EXPECT_THAT(refusalOf(write({.cube = {1, 2, 5, 4, 7, 8, 11, -1}})),
+                HasSubstr("cell 0 has point -1 of"));
     EXPECT_THAT(refusalOf(write({.times = {0.5, std::nan("")}})),
                 HasSubstr("expected times that are finite"));
     // Elements that no list names are not counted, however many a dimension says.

@@ -106,8 +106,10 @@ TEST(VtkUnstructured, ListsThatNameWhatIsNotThereAreRefused) {
             list("connectivity", corners) + list("offsets", ends) + list("types", types) + more));
     };
     EXPECT_EQ(lists("0 1 3 6 1 2 4 7", "4 8", "10 10"), "");
-    EXPECT_THAT(lists("0 1 3 6 1 2 4 12", "4 8", "10 10"), HasSubstr("cell 1 has point"));
-    EXPECT_THAT(lists("0 1 3 6 1 2 4 -1", "4 8", "10 10"), HasSubstr("cell 1 has point"));
+    EXPECT_THAT(lists("0 1 3 6 1 2 4 12", "4 8", "10 10"), HasSubstr("cell 1 has point 12 of 12"));
+    for (const char* other : {"-1", "-7", "4294967295", "99"})
+        EXPECT_THAT(lists(fmt::format("0 1 3 6 1 2 4 {}", other), "4 8", "10 10"),
+                    HasSubstr(fmt::format("cell 1 has point {} of 12", other)));
     EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 9", "10 10"), HasSubstr("cell 1 ends at 9 of 8"));
     EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "4 -8", "10 10"), HasSubstr("cell 1 ends at"));
     EXPECT_THAT(lists("0 1 3 6 1 2 4 7", "8 4", "10 10"), HasSubstr("cell 1 ends at 4 of 8"));
@@ -230,11 +232,10 @@ TEST(VtkUnstructured, WhatIsAppendedAndNamesWhatIsNotThereIsRefused) {
     };
     EXPECT_EQ(refusalOf([](const auto&) {}), "");
     EXPECT_THAT(refusalOf([](auto& grid) { grid.corners[17] = 120; }),
-                HasSubstr("cell 2 has point"))
+                HasSubstr("cell 2 has point 120 of"))
         << "the first of the other piece";
     EXPECT_THAT(refusalOf([](auto& grid) { grid.corners[17] = kNoPoint; }),
-                HasSubstr("cell 2 has point"))
-        << "-1";
+                HasSubstr("cell 2 has point -1 of"));
     EXPECT_THAT(refusalOf([](auto& grid) { grid.ends[5] = 200; }),
                 HasSubstr("cell 6 ends at 56 of 960"));
     EXPECT_THAT(refusalOf([](auto& grid) { grid.ends[59] = 999; }),

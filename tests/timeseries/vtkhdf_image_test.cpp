@@ -134,6 +134,28 @@ TEST(VtkHdfImage, RowsAreTheirNumbersAndGhostsAreMissing) {
     EXPECT_DOUBLE_EQ(valuesOf<double>(*reader, "v magnitude")[0], std::hypot(0, 1000, 2000));
 }
 
+// Those of a column of cells, which is the last along x, in the second step alone.
+TEST(VtkHdfImage, PointsOfGhostCellsAloneAreMissing) {
+    ImageFile file({0, 0, 1, 1, 0, 0, 0, 1, 0}, true);
+    file.image<float>("PointData/p", kPoints, 1, numberOf);
+    file.image<std::uint8_t>(
+        "CellData/vtkGhostType", kCells, 1,
+        [](std::size_t t, std::size_t x, std::size_t, std::size_t, std::size_t) {
+            return std::uint8_t(t == 1 && x == kX - 2 ? 32 : 16);
+        });
+    file.put("VTKHDF/Steps/Values", std::vector<double>{0, 1, 2});
+    const auto reader = open(file.close());
+    for (const std::size_t step : {0, 1, 2}) {
+        const Field field = reader->read(0, step);
+        const auto& values = std::get<std::vector<float>>(field.values);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            EXPECT_EQ(!field.missing.empty() && field.missing[i],
+                      step == 1 && int(values[i]) % 10 == kX - 1)
+                << values[i];
+    }
+    EXPECT_EQ(reader->variables()[0].missing, "ghost and blanked, by vtkGhostType");
+}
+
 TEST(VtkHdfImage, WhatIsNoWholeImageIsRefused) {
     const auto told = [](const std::function<void(ImageFile&)>& change) {
         ImageFile file;

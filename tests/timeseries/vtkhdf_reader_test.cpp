@@ -11,6 +11,7 @@
 #include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/unstructured.h"
+#include "timeseries/grid/cell_types.h"
 
 namespace timeseries {
 namespace {
@@ -257,16 +258,17 @@ TEST(VtkHdf, PolygonsAreSurfaces) {
     topology("Vertices", {}, {0});
     topology("Lines", {0, 5}, {0, 2});
     topology("Polygons", {0, 1, 2, 3, 1, 4, 5, 2}, {0, 4, 8});
-    topology("Strips", {}, {0});
-    file.put("VTKHDF/CellData/c", ramp<std::int32_t>(3));
+    topology("Strips", {0, 1, 3, 4}, {0, 4});
+    file.put("VTKHDF/CellData/c", ramp<std::int32_t>(4));
     const auto reader = open(file.close());
     EXPECT_EQ(reader->format(), "VTKHDF polygons");
     const Grid& grid = *reader->variables()[0].grid;
-    EXPECT_EQ(grid.mesh()->flat(), 1u);  // the line
+    EXPECT_EQ(grid.mesh()->flat(), 2u);  // the line, and the strip, which is told
+    EXPECT_EQ(cellName(*grid.mesh()->about().typeOf(3), 1), "triangle strip");
     EXPECT_NEAR(grid.position(1).x, 0.5, 1e-6);
     EXPECT_NEAR(grid.position(2).x, 1.5, 1e-6);
     EXPECT_NEAR(tests::volume(*grid.mesh(), 1), 1, 1e-5);
-    EXPECT_THAT(valuesOf<std::int32_t>(*reader, "c"), ElementsAre(0, 1, 2));
+    EXPECT_THAT(valuesOf<std::int32_t>(*reader, "c"), ElementsAre(0, 1, 2, 3));
 }
 
 TEST(VtkHdf, NumbersThatDoNotFitAreRefused) {

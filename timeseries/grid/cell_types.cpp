@@ -131,6 +131,8 @@ const CellType* cellTypeOf(std::uint8_t number) {
 
 std::string cellName(std::uint8_t number, std::uint64_t count) {
     const CellType* type = cellTypeOf(number);
+    if (number == kTriangleStrip) return count == 1 ? "triangle strip" : "triangle strips";
+    if (number == 0) return fmt::format("{} of unknown shape", count == 1 ? "cell" : "cells");
     if (!type) return fmt::format("{} of type {}", count == 1 ? "cell" : "cells", number);
     return fmt::format("{}{}", type->isCurved ? "curved " : "",
                        count == 1 ? type->one : type->several);

@@ -21,7 +21,8 @@ struct CellType {
     std::span<const std::uint8_t> faceSizes, faces;
 };
 
-constexpr std::uint8_t kPixelCell = 8, kVoxelCell = 11, kWedgeCell = 13, kPolyhedron = 42;
+constexpr std::uint8_t kPixelCell = 8, kVoxelCell = 11, kWedgeCell = 13, kPolyhedron = 42,
+                       kTriangleStrip = 6;  // which is none that takes space
 // Null for a number that stands for no shape; of a polyhedron faces stand in the file.
 const CellType* cellTypeOf(std::uint8_t number);
 // "hexahedra", "curved hexahedron", "cells of type 200": of so many.

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,13 @@ namespace timeseries {
 // What a corner has that names no point, so that it is told as one that there is not.
 constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
 
+// What a file has there, and of how many points it names none.
+struct NoPoint {
+    std::uint64_t corner;  // which of all
+    std::int64_t number;
+    std::uint64_t points;
+};
+
 // Lists of one cell stand behind that of the cell before, and end where `...Ends` says.
 struct UnstructuredGrid {
     PageVector<glm::dvec3> points;   // in the file's space
@@ -29,7 +37,12 @@ struct UnstructuredGrid {
     // cell is one.
     std::vector<std::uint64_t> faceEnds;
     std::vector<std::uint32_t> faces;
-    std::size_t levels = 0;  // of an adaptive mesh, whose leaves these are; else 0
+    std::size_t levels = 0;               // of an adaptive mesh, whose leaves these are; else 0
+    std::optional<NoPoint> noPoint = {};  // of the corners that are kNoPoint the first, if known
+
+    void keepFirst(const NoPoint& found) {
+        if (!noPoint || found.corner < noPoint->corner) noPoint = found;
+    }
 };
 
 // A cell's part of a list, of cells whose parts end there.

@@ -45,8 +45,15 @@ std::string flawOfCorners(const UnstructuredGrid& grid) {
     if (flawed == grid.types.size()) return "";
     const auto corners = cornersOf(flawed);
     const auto other = std::ranges::find_if_not(corners, isPoint);
-    if (other != corners.end())
-        return fmt::format("cell {} has point {} of {}", flawed, *other, grid.points.size());
+    if (other != corners.end()) {
+        const auto at = static_cast<std::uint64_t>(&*other - grid.corners.data());
+        const auto& known = grid.noPoint;
+        if (*other != kNoPoint)
+            return fmt::format("cell {} has point {} of {}", flawed, *other, grid.points.size());
+        if (known && known->corner == at)
+            return fmt::format("cell {} has point {} of {}", flawed, known->number, known->points);
+        return fmt::format("cell {} has points that there are not", flawed);
+    }
     return fmt::format("cell {} of type {} has {} points, fewer than {}", flawed,
                        grid.types[flawed], corners.size(), cellTypeOf(grid.types[flawed])->corners);
 }
@@ -58,10 +65,14 @@ std::string flawOfFaces(const UnstructuredGrid& grid, std::size_t cell) {
         const std::size_t corners = next < list.size() ? list[next] : list.size();
         if (corners >= list.size() - std::min(next, list.size()))
             return fmt::format("the faces of cell {} end early", cell);
-        for (std::size_t i = 0; i < corners; ++i)
-            if (list[next + 1 + i] >= grid.points.size())
-                return fmt::format("a face of cell {} has point {} of {}", cell, list[next + 1 + i],
+        for (std::size_t i = 0; i < corners; ++i) {
+            const std::uint32_t point = list[next + 1 + i];
+            if (point == kNoPoint)
+                return fmt::format("a face of cell {} has points that there are not", cell);
+            if (point >= grid.points.size())
+                return fmt::format("a face of cell {} has point {} of {}", cell, point,
                                    grid.points.size());
+        }
         next += 1 + corners;
     }
     return "";

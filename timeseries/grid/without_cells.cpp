@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace timeseries {
 
@@ -26,6 +27,36 @@ Mesh meshOfPointsWithout(const std::vector<bool>& ghosts, const UnstructuredGrid
     if (std::ranges::find(ghosts, true) == ghosts.end()) return meshOfPoints(grid, shapes);
     const UnstructuredGrid own = withoutCells(grid, ghosts);
     return meshOfPoints(own, UnstructuredShapes(own));
+}
+
+std::vector<bool> pointsOfGhosts(std::vector<bool> ghosts,
+                                 const std::array<std::uint64_t, 3>& points) {
+    if (std::ranges::find(ghosts, true) == ghosts.end()) return {};
+    // From cells to the points between them, one axis after another.
+    std::uint64_t stride = 1;
+    for (const std::uint64_t count : points) {
+        if (count > 1) {
+            const std::uint64_t cells = count - 1, lines = ghosts.size() / (stride * cells);
+            std::vector<bool> both;
+            both.reserve(lines * count * stride);
+            for (std::uint64_t line = 0; line < lines; ++line)
+                for (std::uint64_t i = 0; i < count; ++i)
+                    for (std::uint64_t k = 0; k < stride; ++k) {
+                        const std::uint64_t after = (line * cells + i) * stride + k;
+                        both.push_back((i == 0 || ghosts[after - stride]) &&
+                                       (i == cells || ghosts[after]));
+                    }
+            ghosts = std::move(both);
+        }
+        stride *= count;
+    }
+    return ghosts;
+}
+
+void leaveOut(const std::vector<bool>& more, std::vector<bool>& missing) {
+    if (missing.empty()) missing = more;
+    for (std::size_t i = 0; i < more.size(); ++i)
+        if (more[i]) missing[i] = true;
 }
 
 }  // namespace timeseries

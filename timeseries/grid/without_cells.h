@@ -1,6 +1,8 @@
-// A grid of some of another's cells.
+// What is left of a grid without some of its cells.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "timeseries/grid/unstructured.h"
@@ -14,5 +16,11 @@ UnstructuredGrid withoutCells(const UnstructuredGrid& grid, const std::vector<bo
 // as cells, or none; the shapes of the grid.
 Mesh meshOfPointsWithout(const std::vector<bool>& ghosts, const UnstructuredGrid& grid,
                          const UnstructuredShapes& shapes);
+// Of points along indices, so many, those that are of ghosts alone; empty where there are none.
+// REQUIRES: as many as cells between them, x fastest, or none; an axis of one point is one thick.
+std::vector<bool> pointsOfGhosts(std::vector<bool> ghosts,
+                                 const std::array<std::uint64_t, 3>& points);
+// Those too.
+void leaveOut(const std::vector<bool>& more, std::vector<bool>& missing);
 
 }  // namespace timeseries

@@ -17,6 +17,7 @@
 #include "timeseries/readers/foam/foam_case.h"
 #include "timeseries/readers/foam/foam_reader.h"
 #include "timeseries/readers/netcdf/netcdf_reader.h"
+#include "timeseries/readers/ordered_reader.h"
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/other_formats.h"
 #include "timeseries/readers/plot3d_reader.h"
@@ -200,12 +201,12 @@ std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths)
         if (!its && !isToldLater) failUnknown(path);
     }
     const auto now = std::chrono::system_clock::now();
-    auto reader =
+    auto reader = inOrderOfTime(
         format.joins || paths.size() == 1
             ? format.open(paths)
             : openSequence(paths, [open = format.open](const std::filesystem::path& path) {
                   return open(std::span(&path, 1));
-              });
+              }));
     reader->openedAt = now;
     return reader;
 }

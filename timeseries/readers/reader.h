@@ -33,7 +33,7 @@ struct TimeAxis {
     std::string units;     // "s", "hours since 0000-01-01"; "" for none
     std::string calendar;  // CF calendar of dates; "" for plain numbers
     std::vector<TimePoint>
-        points;            // [steps] in the order of the steps, which the reader keeps as stored
+        points;            // [steps]; of openReader() ascending, where a note does not say why not
     bool counted = false;  // the file has no time: steps are counted, points[i].value is i
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <list>
 #include <set>
 #include <string_view>
@@ -43,6 +44,11 @@ std::string commonName(std::span<const Path> paths) {
     const std::size_t last = common.find_last_not_of("0123456789 ._-");
     return last == common.npos ? "values" : std::string(common.substr(0, last + 1));
 }
+
+struct TimesOf {
+    double least, most;
+    std::size_t file;
+};
 
 // By which a file that was written anew is told from the one that was opened.
 struct WrittenAt {
@@ -252,17 +258,25 @@ std::string SequenceReader::ownTimesFail(std::size_t v) const {
         if (axes[f]->units != axes[0]->units || axes[f]->calendar != axes[0]->calendar)
             return fmt::format("those of {} are in \"{}\", those of {} in \"{}\"", name(0),
                                axes[0]->units, name(f), axes[f]->units);
-    for (std::size_t f = 1; f < axes.size(); ++f) {
-        const double before = std::ranges::max(axes[f - 1]->points, {}, &TimePoint::value).value;
-        const double after = std::ranges::min(axes[f]->points, {}, &TimePoint::value).value;
-        if (before < after) continue;
-        if (several)
-            differ(f - 1, f,
-                   fmt::format("variable '{}': expected times that ascend, found {} before {}",
-                               variables_[v].name, before, after));
-        return before == after ? fmt::format("{} and {} both have {}", name(f - 1), name(f), before)
-                               : fmt::format("they do not ascend: {} has {}, {} has {}",
-                                             name(f - 1), before, name(f), after);
+    std::vector<TimesOf> inOrder;
+    for (std::size_t f = 0; f < axes.size(); ++f) {
+        const auto& points = axes[f]->points;
+        for (const TimePoint& point : points)
+            if (std::isnan(point.value))
+                return fmt::format("{} has one that is no number", name(f));
+        inOrder.push_back({std::ranges::min(points, {}, &TimePoint::value).value,
+                           std::ranges::max(points, {}, &TimePoint::value).value, f});
+    }
+    std::ranges::stable_sort(inOrder, {}, &TimesOf::least);
+    for (std::size_t i = 1; i < inOrder.size(); ++i) {
+        const TimesOf &a = inOrder[i - 1], &b = inOrder[i];
+        if (a.most < b.least) continue;
+        if (!several)
+            return fmt::format("{} and {} both have {}", name(a.file), name(b.file), a.most);
+        differ(a.file, b.file,
+               fmt::format("variable '{}': expected times that do not overlap, found {} to {} and "
+                           "{} to {}",
+                           variables_[v].name, a.least, a.most, b.least, b.most));
     }
     return "";
 }

@@ -29,11 +29,11 @@ using GlanceAt = std::function<std::optional<Glance>(const std::filesystem::path
 // first is opened here, and each other when a step of it is read: one that does not fit then, or
 // cannot be read, is refused each time, and the other steps are none the worse for it; a note tells
 // those of which a glance shows it.
-// Times are the files' own where all files have them, in the same units, and they ascend from file
-// to file; else, with one step a file, the numbers in which the names differ; else steps are
-// counted. Why the files' own are not taken is a note. REQUIRES: paths is not empty.
-// Throws FileError, naming two files, where variables, types, units or grids differ, and where
-// times of files of several steps overlap.
+// Times are the files' own where all files have them, in the same units, and no two of one step a
+// file have the same (openReader() puts steps in their order); else, with one step a file, the
+// numbers in which the names differ; else steps are counted. Why the files' own are not taken is a
+// note. REQUIRES: paths is not empty. Throws FileError, naming two files, where variables, types,
+// units or grids differ, and where times of files of several steps overlap.
 std::unique_ptr<Reader> openSequence(std::span<const std::filesystem::path> paths, OpenOne openOne,
                                      const GlanceAt& glanceAt = {});
 

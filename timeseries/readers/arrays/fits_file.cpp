@@ -158,6 +158,14 @@ FitsAxis axisOf(const Keywords& keys, const Matrix& matrix, int number, LONGLONG
     return axis;
 }
 
+// None where a double holds every sum; 0 where not even 64 bits do.
+std::optional<std::int64_t> shiftOf(int bitpix, double zero, std::optional<std::int64_t> whole) {
+    constexpr double kMostExact = 0x1p52;  // beside integers of 32 bits
+    const bool isExact = bitpix < 64 && std::abs(zero) <= kMostExact;
+    if (isExact || zero != std::floor(zero)) return std::nullopt;
+    return std::abs(zero) > 0x1p63 ? 0 : whole.value_or(0);
+}
+
 bool isTurned(const Keywords& keys, const Matrix& matrix, int axes) {
     for (int i = 1; i <= axes; ++i)
         if (keys.number(fmt::format("CROTA{}", i)).value_or(0) != 0) return true;
@@ -225,15 +233,25 @@ std::optional<FitsImage> FitsFile::Open::image(const FitsFile& of, int hdu) cons
     image.storedAs = fmt::format("BITPIX {}", bitpix);
     const double scale = keys.number("BSCALE").value_or(1), zero = keys.number("BZERO").value_or(0);
     const bool isInteger = bitpix > 0, plain = scale == 1 && zero == 0;
-    const bool otherSign = isInteger && scale == 1 && zero == stored->signOffset;
-    image.type = plain ? stored->type : otherSign ? stored->otherSign : ValueType::F64;
-    const bool scaled = !plain && !otherSign;
+    const auto whole = keys.integer("BZERO");  // none of 2^63
+    const bool otherSign =
+        isInteger && scale == 1 && zero == stored->signOffset && !(zero == 0x1p63 && whole);
+    if (isInteger && scale == 1 && !plain && !otherSign) image.shift = shiftOf(bitpix, zero, whole);
+    if (image.shift && *image.shift == 0)
+        of.fail(place, fmt::format("expected a BZERO below 2^63, found {}", zero));
+    image.type = plain         ? stored->type
+                 : otherSign   ? stored->otherSign
+                 : image.shift ? ValueType::I64
+                               : ValueType::F64;
+    const bool scaled = !plain && !otherSign && !image.shift;
     image.scaledIntegers = scaled && isInteger;
     if (scaled) image.storedAs += fmt::format(", scale {}, offset {}", scale, zero);
+    if (image.shift) image.storedAs += fmt::format(", offset {}", *image.shift);
     if (const auto blank = keys.integer("BLANK"); blank && isInteger && !scaled) {
         // 2^63 is beyond the integers with a sign.
-        const auto offset = zero < 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(zero))
-                                     : static_cast<std::uint64_t>(zero);
+        const auto offset = image.shift ? static_cast<std::uint64_t>(*image.shift)
+                            : zero < 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(zero))
+                                       : static_cast<std::uint64_t>(zero);
         image.blank = {*blank, static_cast<std::uint64_t>(*blank) + offset};
     }
     expectBytes(of, image, static_cast<double>(points) * std::abs(bitpix) / 8);
@@ -298,14 +316,30 @@ Values FitsFile::read(const FitsImage& image, const std::vector<std::uint64_t>& 
         const bool asks = std::is_floating_point_v<T> && (image.packed || image.scaledIntegers);
         int status = 0, any = 0;
         fits_movabs_hdu(open_->file, image.hdu, nullptr, &status);
+        if (image.shift) fits_set_bscale(open_->file, 1, 0, &status);
         fits_read_subset(open_->file, memory, from.data(), to.data(), every.data(),
                          asks ? &none : nullptr, values.data(), &any, &status);
         if (status != 0)
             fail(fmt::format("HDU {}", image.hdu),
                  fmt::format("expected {} values, but CFITSIO says: {}", points,
                              sentenceOf(status)));
+        if constexpr (std::is_same_v<T, std::int64_t>)
+            if (image.shift) addShift(image, values);
         return values;
     });
+}
+
+// Of what is blank modulo 2^64, as it is looked for.
+void FitsFile::addShift(const FitsImage& image, std::vector<std::int64_t>& values) const {
+    for (std::int64_t& value : values) {
+        std::int64_t sum = 0;
+        const bool isBlank = image.blank && value == image.blank->stored;
+        if (__builtin_add_overflow(value, *image.shift, &sum) && !isBlank)
+            fail(fmt::format("HDU {}", image.hdu),
+                 fmt::format("expected values of 64 bits, found {} with BZERO {}", value,
+                             *image.shift));
+        value = sum;
+    }
 }
 
 void FitsFile::fail(std::string_view place, std::string_view what) const {

@@ -28,6 +28,8 @@ struct FitsImage {
     std::string name;  // EXTNAME; ""
     std::string unit;  // BUNIT
     ValueType type{};  // with scale and offset applied: double, but where they turn a sign
+    // Of integers of which a double would not hold all: what is added to them as they are stored.
+    std::optional<std::int64_t> shift;
     bool scaledIntegers = false;
     bool packed = false;  // compressed by tiles
     std::string storedAs;
@@ -60,6 +62,8 @@ class FitsFile {
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;
 
  private:
+    void addShift(const FitsImage& image, std::vector<std::int64_t>& values) const;
+
     struct Open;
     std::filesystem::path path_;
     std::unique_ptr<Open> open_;

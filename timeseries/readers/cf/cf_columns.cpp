@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "timeseries/readers/cf/cf_seam.h"
 #include "timeseries/readers/cf/cf_terms.h"
 #include "timeseries/readers/cf/cf_values.h"
 
@@ -72,13 +73,16 @@ std::shared_ptr<const Mesh> meshOf(const CfFile& file, const NcVariable& variabl
         .at = {},
         .levels = columns.heights ? std::vector<double>() : z.coordinates,
         .period = {turnIn(lon->text("units")), 0, 0}};
-    std::vector<double> heights(places.size[0] * places.size[1], 0.0);
-    if (columns.heights) heights = heightsOf(file, variable, roles, *columns.heights, step);
+    for (std::size_t j = 0; j < places.size[1]; ++j)
+        for (std::size_t i = 0; i < places.size[0]; ++i)
+            places.at.emplace_back(xs.at(i, j, 0), ys.at(i, j, 0), 0);
+    goOnAcrossTheSeam(places.at, places.size, places.period.x);
+    if (!columns.heights) return std::make_shared<const Mesh>(places);
+    const auto heights = heightsOf(file, variable, roles, *columns.heights, step);
+    const std::size_t count = places.at.size();
     places.at.reserve(heights.size());
-    for (std::size_t n = 0; n < heights.size(); ++n) {
-        const auto at = indicesOf<std::uint64_t>(n, {places.size[0], places.size[1], 1});
-        places.at.emplace_back(xs.at(at.x, at.y, 0), ys.at(at.x, at.y, 0), heights[n]);
-    }
+    for (std::size_t n = count; n < heights.size(); ++n) places.at.push_back(places.at[n - count]);
+    for (std::size_t n = 0; n < heights.size(); ++n) places.at[n].z = heights[n];
     return std::make_shared<const Mesh>(std::move(places));
 }
 

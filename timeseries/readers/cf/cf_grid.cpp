@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "timeseries/readers/cf/cf_seam.h"
 #include "timeseries/readers/cf/cf_values.h"
 #include "timeseries/readers/limits.h"
 #include "timeseries/readers/text/units.h"
@@ -28,24 +29,6 @@ bool measured(const NcVariable* coordinate) {
     const std::string units = lower(coordinate->text("units"));
     // By its name, for to udunits a degree is a number like 1.
     return units.starts_with("deg") || units.starts_with("rad") || sameDimension(units, "m");
-}
-
-// Longitudes that begin anew once, as 300 to 359 and then 0 to 40, less than once around: they go
-// on.
-void goOnAcrossTheSeam(std::vector<double>& longitudes) {
-    if (longitudes.size() < 3) return;
-    const double up = longitudes[1] > longitudes[0] ? 1 : -1;
-    const auto turned = std::ranges::adjacent_find(
-        longitudes, [&](double a, double b) { return !((b - a) * up > 0); });
-    if (turned == longitudes.end()) return;
-    std::vector<double> on = longitudes;
-    const auto seam = on.begin() + (turned - longitudes.begin()) + 1;
-    // Nearer to Greenwich: of 300, 0 it is -60, 0; of 170, -170 it is 170, 190.
-    if ((*seam >= 0) == (up > 0))
-        std::for_each(on.begin(), seam, [&](double& v) { v -= up * 360; });
-    else
-        std::for_each(seam, on.end(), [&](double& v) { v += up * 360; });
-    if (flawOf(on).empty() && std::abs(on.back() - on.front()) < 360) longitudes = std::move(on);
 }
 
 Axis axisOf(const CfFile& file, const FileAxes& fileAxes, const NcVariable& variable,

@@ -11,6 +11,7 @@
 #include "timeseries/grid/unstructured.h"
 #include "timeseries/readers/cf/cf_mpas.h"
 #include "timeseries/readers/cf/cf_polygons.h"
+#include "timeseries/readers/cf/cf_seam.h"
 #include "timeseries/readers/cf/cf_triangles.h"
 #include "timeseries/readers/cf/cf_values.h"
 
@@ -124,6 +125,7 @@ PlaneCoordinates coordinatesOf(const CfFile& file, const NcVariable& x, const Nc
     const double degrees = degreesIn(units);
     for (auto* const values : {&all.x, &all.y})
         for (double& value : *values) value *= degrees;
+    if (all.turn > 0) goOnAcrossTheSeam(all.x, all.y);
     return all;
 }
 

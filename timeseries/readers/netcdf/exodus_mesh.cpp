@@ -104,6 +104,8 @@ void addBlock(const NetcdfFile& file, std::size_t block, ExodusMesh& mesh) {
         grid.ends.push_back(grid.corners.size() + i * nodes);
     forEach(file, *connect, [&](std::size_t, auto number) {
         const bool isThere = number >= 1 && static_cast<std::uint64_t>(number) <= points;
+        if (!isThere)
+            grid.keepFirst({grid.corners.size(), static_cast<std::int64_t>(number), points});
         grid.corners.push_back(isThere ? static_cast<std::uint32_t>(number) - 1 : kNoPoint);
     });
 }

@@ -13,6 +13,7 @@ namespace {
 using Source = std::pair<std::string, std::string>;  // file, dataset
 
 struct Visit {
+    const LookAtHdf5& also;
     std::filesystem::path folder;
     std::set<Source> there;  // known to be
     Hdf5Elsewhere found;
@@ -91,18 +92,21 @@ herr_t look(hid_t group, const char* name, const H5L_info_t* link, void* data) {
         if (link->type == H5L_TYPE_HARD) visit.found.any = true;
         return 0;
     }
-    if (H5Iget_type(object) == H5I_DATASET) lookAtDataset(object, name, visit);
+    if (H5Iget_type(object) == H5I_DATASET) {
+        lookAtDataset(object, name, visit);
+        visit.also(object, name);
+    }
     H5Oclose(object);
     return 0;
 }
 
 }  // namespace
 
-Hdf5Elsewhere hdf5Elsewhere(const std::filesystem::path& path) {
+Hdf5Elsewhere hdf5Elsewhere(const std::filesystem::path& path, const LookAtHdf5& also) {
     if (H5Fis_hdf5(path.c_str()) <= 0) return {};
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0) return {.any = true, .missing = {}};
-    Visit visit{std::filesystem::absolute(path).parent_path(), {}, {}};
+    Visit visit{also, std::filesystem::absolute(path).parent_path(), {}, {}};
     if (H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, look, &visit) < 0) visit.found.any = true;
     H5Fclose(file);
     return std::move(visit.found);

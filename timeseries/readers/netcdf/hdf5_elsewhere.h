@@ -2,7 +2,9 @@
 // ("HDF5 File Format Specification 3.0", IV.A.2.g, h and i). Those may change while it does not.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -15,7 +17,9 @@ struct Hdf5Elsewhere {
     std::map<std::string, std::string> missing;
 };
 
-// Nothing of a file of another format. REQUIRES: the lock of HDF5.
-Hdf5Elsewhere hdf5Elsewhere(const std::filesystem::path& path);
+// Nothing of a file of another format. `also` looks at each dataset, which is HDF5's, under each of
+// its names. REQUIRES: the lock of HDF5.
+using LookAtHdf5 = std::function<void(std::int64_t dataset, const char* name)>;
+Hdf5Elsewhere hdf5Elsewhere(const std::filesystem::path& path, const LookAtHdf5& also);
 
 }  // namespace timeseries

@@ -54,6 +54,7 @@ void NetcdfFile::readHeader() {
     check(nc_inq_format(id_, &format), "", "a netCDF file");
     header_.format = formatName(format);
     readGroup(id_, "", 0);
+    addEnums();
     const auto& all = header_.dimensions;
     if (!all.empty() && std::ranges::none_of(all, &NcDimension::isNamed))
         header_.format = kPlainHdf5;
@@ -95,6 +96,38 @@ void NetcdfFile::readGroup(int group, const std::string& name, int depth) {
         std::array<char, NC_MAX_NAME + 1> text{};
         check(nc_inq_grpname(id, text.data()), place, "its groups");
         readGroup(id, name.empty() ? text.data() : name + '/' + text.data(), depth + 1);
+    }
+}
+
+// Those that the library passes over have dimensions as it makes them up: one for each length, and
+// none twice of one variable.
+void NetcdfFile::addEnums() {
+    for (const auto& [name, found] : enums_) {
+        const auto same = std::ranges::find(header_.variables, name, &NcVariable::name);
+        if (same != header_.variables.end()) {
+            same->type = found.type;
+            continue;
+        }
+        NcVariable variable;
+        variable.name = name;
+        if (const auto slash = name.rfind('/'); slash != name.npos)
+            variable.group = name.substr(0, slash);
+        variable.type = found.type;
+        variable.filled = false;
+        variable.chunkBytes = found.chunkBytes;
+        auto& all = header_.dimensions;
+        for (const std::uint64_t length : found.lengths) {
+            std::size_t at = 0;
+            while (at < all.size() &&
+                   (all[at].isNamed() || all[at].length != length || variable.positionOf(at)))
+                ++at;
+            if (at == all.size()) {
+                all.push_back({fmt::format("phony_dim_{}", at), length, false});
+                dimensionIds_.push_back(-1);
+            }
+            variable.dimensions.push_back(at);
+        }
+        header_.variables.push_back(std::move(variable));
     }
 }
 

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <mutex>
 
+#include "timeseries/grid/with_type.h"
 #include "timeseries/readers/cf/cf_axes.h"
 #include "timeseries/readers/cf/cf_packing.h"
 #include "timeseries/readers/forked_call.h"
@@ -134,7 +135,10 @@ void NetcdfFile::open() {
     check(nc_open(std::filesystem::absolute(path_).c_str(), NC_NOWRITE, &id_), "",
           "a whole netCDF file, whose links lead somewhere");
     try {
-        elsewhere_ = hdf5Elsewhere(path_);  // while it shares what is read of it
+        // While it shares what is read of it.
+        elsewhere_ = hdf5Elsewhere(path_, [&](std::int64_t dataset, const char* name) {
+            takeHdf5Enum(dataset, name, enums_);
+        });
         readHeader();
         readStrings();
     } catch (...) {
@@ -184,6 +188,7 @@ std::vector<Number> NetcdfFile::numbers(const NcVariable& variable) const {
         points *= static_cast<double>(header_.dimension(variable, i).length);
     const auto count = static_cast<std::uint64_t>(std::min(points, 1e18));
     if (const std::string why = tooLarge(variable, count); !why.empty()) fail(place, why);
+    if (enums_.contains(variable.name)) return numbersOfEnum(variable, count);
     std::vector<Number> values(count);
     const LibraryLock lock;
     const auto fill = [&](auto get, auto zero, auto number) {
@@ -201,10 +206,29 @@ std::vector<Number> NetcdfFile::numbers(const NcVariable& variable) const {
     return values;
 }
 
+std::vector<Number> NetcdfFile::numbersOfEnum(const NcVariable& variable,
+                                              std::uint64_t count) const {
+    const std::size_t rank = variable.dimensions.size();
+    std::vector<std::size_t> start(rank, 0), lengths;
+    for (std::size_t i = 0; i < rank; ++i) lengths.push_back(header_.dimension(variable, i).length);
+    return withType(*variable.type, [&]<typename T>(T) {
+        std::vector<T> values(count);
+        read(variable, start, lengths, values.data());
+        std::vector<Number> numbers;
+        for (const T value : values) numbers.push_back(numberOf(value));
+        return numbers;
+    });
+}
+
 void NetcdfFile::read(const NcVariable& variable, std::span<const std::size_t> start,
                       std::span<const std::size_t> count, void* values) const {
     const std::string place = placeOf(variable);
     const LibraryLock lock;
+    if (enums_.contains(variable.name)) {
+        if (!readHdf5Enum(path_, variable.name, *variable.type, start, count, values))
+            fail(place, "expected numbers that can be read, but HDF5 reads none");
+        return;
+    }
     keepChunks(variable, start, count);
     check(nc_get_vara(variable.groupId, variable.id, start.data(), count.data(), values), place,
           "values that can be read");

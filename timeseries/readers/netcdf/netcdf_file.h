@@ -13,6 +13,7 @@
 
 #include "timeseries/readers/cf/cf_file.h"
 #include "timeseries/readers/netcdf/hdf5_elsewhere.h"
+#include "timeseries/readers/netcdf/hdf5_enums.h"
 
 namespace timeseries {
 
@@ -51,8 +52,10 @@ class NetcdfFile final : public CfFile {
     // Opens nothing.
     explicit NetcdfFile(const std::filesystem::path& path) : CfFile(path) {}
     std::string tooLarge(ValueType type, std::uint64_t points, std::uint64_t chunkBytes) const;
+    std::vector<Number> numbersOfEnum(const NcVariable& variable, std::uint64_t count) const;
     void open();
     void readHeader();
+    void addEnums();
     void readStrings();
     std::vector<std::string> stringsOf(const NcVariable& variable) const;
     void readGroup(int group, const std::string& name, int depth);
@@ -67,6 +70,7 @@ class NetcdfFile final : public CfFile {
     std::uint64_t fileBytes_ = 0;
     int id_ = -1;
     Hdf5Elsewhere elsewhere_;
+    Hdf5Enums enums_;
     std::vector<int> dimensionIds_;  // the library's, beside header_.dimensions
     std::map<std::string, std::vector<std::string>> strings_;  // [variable]
 };

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "timeseries/grid/with_type.h"
+#include "timeseries/grid/without_cells.h"
 #include "timeseries/readers/components.h"
 #include "timeseries/readers/image_grid.h"
 #include "timeseries/readers/limits.h"
@@ -174,7 +175,7 @@ void VtkHdfImageReader::addArrays(bool atPoints) {
             variable.name = each.name;
             variable.type = each.type;
             variable.storedAs = each.storedAs + (atPoints ? "" : ", at cells");
-            if (ghostsAt(atPoints)) variable.missing = kVtkHdfMissing;
+            if (ghostsAt(atPoints) || ghostsAt(false)) variable.missing = kVtkHdfMissing;
             variable.grid = placed_[atPoints].grid;
             variable.time = time_;
             variable.notes = placed_[atPoints].notes;
@@ -241,6 +242,11 @@ Field VtkHdfImageReader::read(std::size_t variable, std::size_t step) {
     if (const NcVariable* const ghosts = ghostsAt(source.atPoints))
         field.missing =
             vtkHdfMissing(inOrder(rowsAt(*ghosts, source.atPoints, step)), source.atPoints);
+    const NcVariable* const cells = source.atPoints ? ghostsAt(false) : nullptr;
+    if (!cells) return field;
+    const auto ofGhosts =
+        pointsOfGhosts(vtkHdfMissing(rowsAt(*cells, false, step), false), image_.points);
+    if (!ofGhosts.empty()) leaveOut(arranged(ofGhosts, layout), field.missing);
     return field;
 }
 

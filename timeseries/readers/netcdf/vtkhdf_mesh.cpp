@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "timeseries/grid/cell_types.h"
+#include "timeseries/readers/face_tables.h"
 #include "timeseries/readers/limits.h"
 #include "timeseries/readers/netcdf/netcdf_rows.h"
 
@@ -13,6 +15,13 @@ namespace timeseries {
 namespace {
 
 constexpr std::uint8_t kVertices = 2, kPolyLine = 4, kPolygon = 7;
+
+// As VtkHdfFaces.
+constexpr std::array kFaceCounts{"VTKHDF/NumberOfFaces", "VTKHDF/NumberOfFaceConnectivityIds",
+                                 "VTKHDF/NumberOfPolyhedronToFaceIds"};
+constexpr std::array kFaceOffsets{"VTKHDF/Steps/FaceOffsetsOffsets",
+                                  "VTKHDF/Steps/FaceConnectivityOffsets",
+                                  "VTKHDF/Steps/PolyhedronToFaceIdOffsets"};
 
 const NcVariable& expected(const NetcdfFile& file, const std::string& name) {
     const NcVariable* const found = file.header().find(name, "");
@@ -38,7 +47,7 @@ std::vector<std::uint64_t> countsOf(const NetcdfFile& file, const std::string& n
     return counts;
 }
 
-// Of the rows, as whole numbers; below 0 and beyond all others what is none.
+// Of the rows, as whole numbers; beyond all others what is none, modulo 2^64 where it is below 0.
 std::vector<std::uint64_t> wholeNumbers(const NetcdfFile& file, const std::string& name,
                                         std::uint64_t first, std::uint64_t count) {
     const Values rows = rowsOf(file, expected(file, name), first, count, 1);
@@ -47,12 +56,27 @@ std::vector<std::uint64_t> wholeNumbers(const NetcdfFile& file, const std::strin
     std::visit(
         [&](const auto& values) {
             for (const auto value : values)
-                whole.push_back(value >= 0 && static_cast<double>(value) < 0x1p62
-                                    ? static_cast<std::uint64_t>(value)
+                whole.push_back(std::abs(static_cast<double>(value)) < 0x1p62
+                                    ? static_cast<std::uint64_t>(static_cast<std::int64_t>(value))
                                     : std::numeric_limits<std::uint64_t>::max());
         },
         rows);
     return whole;
+}
+
+// One more than so many from there on, the first 0 and the last `end`; none where they are not.
+std::vector<std::uint64_t> offsetsFrom(const NetcdfFile& file, const std::string& name,
+                                       std::uint64_t first, std::uint64_t count,
+                                       std::uint64_t end) {
+    const std::uint64_t length = lengthOf(file, expected(file, name));
+    if (first > length || count >= length - first) return {};
+    auto offsets = wholeNumbers(file, name, first, count + 1);
+    if (offsets.front() != 0 || offsets.back() != end) return {};
+    return offsets;
+}
+
+std::uint32_t pointOf(std::uint64_t point, std::uint64_t points, std::uint64_t first) {
+    return point < points ? static_cast<std::uint32_t>(first + point) : kNoPoint;
 }
 
 }  // namespace
@@ -81,17 +105,36 @@ VtkHdfLayout::VtkHdfLayout(const NetcdfFile& file) : file_(file) {
     if (header.find("VTKHDF/Types", "")) {
         add("VTKHDF/", 0);
     } else {
-        // Strips are told, not drawn.
+        // Told, not drawn.
         add("VTKHDF/Vertices/", kVertices);
         add("VTKHDF/Lines/", kPolyLine);
         add("VTKHDF/Polygons/", kPolygon);
-        add("VTKHDF/Strips/", 0);
+        add("VTKHDF/Strips/", kTriangleStrip);
     }
     for (const Topology& each : topologies_)
         if (each.cells.size() != points_.size() || each.ids.size() != points_.size())
             file.fail(each.group, fmt::format("expected numbers of {} parts, found {} and {}",
                                               parts(), each.cells.size() - 1, each.ids.size() - 1));
+    if (!isPolygons() && header.find("VTKHDF/FaceConnectivity", ""))
+        for (std::size_t k = 0; k < faces_.size(); ++k) {
+            faces_[k] = sumsOf(kFaceCounts[k]);
+            if (faces_[k].size() != points_.size())
+                file.fail(kFaceCounts[k], fmt::format("expected numbers of {} parts, found {}",
+                                                      parts(), faces_[k].size() - 1));
+        }
     readSteps();
+    if (hasPolyhedra()) readFaceOffsets();
+}
+
+// Where a step does not say, its parts' tables stand behind those of the parts before.
+void VtkHdfLayout::readFaceOffsets() {
+    for (std::size_t k = 0; k < faces_.size(); ++k) {
+        for (VtkHdfStep& step : steps_) step.faces[k] = faces_[k][step.firstPart];
+        if (!file_.header().find(kFaceOffsets[k], "")) continue;
+        const auto told = countsOf(file_, kFaceOffsets[k]);
+        for (std::size_t s = 0; s < std::min(told.size(), steps_.size()); ++s)
+            steps_[s].faces[k] = told[s];
+    }
 }
 
 void VtkHdfLayout::readSteps() {
@@ -193,17 +236,16 @@ void VtkHdfLayout::addCells(const Topology& topology, const VtkHdfStep& step, st
     const std::uint64_t before = step.cells[which] + within(topology.cells),
                         corner = step.ids[which] + within(topology.ids);
     const std::string name = topology.group + "Offsets";
-    const std::uint64_t length = lengthOf(file_, expected(file_, name));
     const auto earlier = static_cast<std::uint64_t>(
         std::ranges::lower_bound(topology.cells, step.cells[which]) - topology.cells.begin());
     std::array<std::uint64_t, 2> extras{number, earlier + part};
     if (isPolygons()) std::swap(extras[0], extras[1]);
     std::vector<std::uint64_t> offsets;
+    std::uint64_t at = 0;
     for (const std::uint64_t extra : extras) {
-        if (before + extra > length || cells + 1 > length - (before + extra)) continue;
-        offsets = wholeNumbers(file_, name, before + extra, cells + 1);
-        if (offsets.front() == 0 && offsets.back() == ids) break;
-        offsets.clear();
+        at = before + extra;
+        offsets = offsetsFrom(file_, name, at, cells, ids);
+        if (!offsets.empty()) break;
     }
     if (offsets.empty())
         file_.fail(
@@ -213,15 +255,51 @@ void VtkHdfLayout::addCells(const Topology& topology, const VtkHdfStep& step, st
     if (begin + ids >= kMaxPoints) file_.fail(name, "expected fewer than 2^32 corners, found more");
     for (std::uint64_t i = 1; i <= cells; ++i) grid.ends.push_back(begin + offsets[i]);
     for (const std::uint64_t point :
-         wholeNumbers(file_, topology.group + "Connectivity", corner, ids))
-        grid.corners.push_back(point < points ? static_cast<std::uint32_t>(firstPoint + point)
-                                              : kNoPoint);
+         wholeNumbers(file_, topology.group + "Connectivity", corner, ids)) {
+        if (point >= points)
+            grid.keepFirst({grid.corners.size(), static_cast<std::int64_t>(point), points});
+        grid.corners.push_back(pointOf(point, points, firstPoint));
+    }
     if (topology.group != "VTKHDF/") {
         grid.types.resize(grid.types.size() + cells, topology.shape);
         return;
     }
     for (const std::uint64_t type : wholeNumbers(file_, "VTKHDF/Types", before, cells))
         grid.types.push_back(type > 255 ? 0 : static_cast<std::uint8_t>(type));
+    if (hasPolyhedra()) addFaces(step, {number, cells, at, at - before, points, firstPoint}, grid);
+}
+
+// One more than faces, and than cells, stand in the tables of ends for each part, the first 0.
+// Where the tables of the part begin, the numbers of the parts before it tell; VTK's own writer is
+// known to leave parts out of what steps say, which stands in where the tables do not end there.
+void VtkHdfLayout::addFaces(const VtkHdfStep& step, const Part& part,
+                            UnstructuredGrid& grid) const {
+    VtkHdfFaces counts, begin, told = step.faces;
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+        begin[k] = faces_[k][part.number];
+        counts[k] = faces_[k][part.number + 1] - begin[k];
+        told[k] += begin[k] - faces_[k][step.firstPart];
+    }
+    const std::string name = "VTKHDF/FaceOffsets", cellName = "VTKHDF/PolyhedronOffsets";
+    FaceTables tables;
+    tables.ends = offsetsFrom(file_, name, begin[0] + part.number, counts[0], counts[1]);
+    if (tables.ends.empty()) {
+        begin = told;
+        tables.ends = offsetsFrom(file_, name, begin[0] + part.before, counts[0], counts[1]);
+    }
+    tables.cellEnds = offsetsFrom(file_, cellName, part.endsAt, part.cells, counts[2]);
+    if (tables.ends.empty() || tables.cellEnds.empty())
+        file_.fail(
+            "variable '" + (tables.ends.empty() ? name : cellName) + "'",
+            fmt::format("expected {} faces of part {}, from 0 to {} corners, {} in its cells",
+                        counts[0], part.number, counts[1], counts[2]));
+    tables.ends.erase(tables.ends.begin());
+    tables.cellEnds.erase(tables.cellEnds.begin());
+    tables.faces = wholeNumbers(file_, "VTKHDF/PolyhedronToFaces", begin[2], counts[2]);
+    for (const std::uint64_t point :
+         wholeNumbers(file_, "VTKHDF/FaceConnectivity", begin[1], counts[1]))
+        tables.corners.push_back(pointOf(point, part.points, part.firstPoint));
+    timeseries::addFaces(tables, grid);
 }
 
 UnstructuredGrid VtkHdfLayout::gridOf(const VtkHdfStep& step) const {

@@ -15,11 +15,15 @@ namespace timeseries {
 
 bool isVtkHdf(const NcHeader& header);
 
+// Of polyhedra, or where their tables begin: faces, their corners, the faces of cells.
+using VtkHdfFaces = std::array<std::uint64_t, 3>;
+
 // Where a step's parts stand in the file's arrays, in which those of all steps follow each other.
 struct VtkHdfStep {
     std::uint64_t firstPart = 0, parts = 0;
     std::uint64_t points = 0;                     // the first
     std::array<std::uint64_t, 4> cells{}, ids{};  // of each topology: of Offsets and Connectivity
+    VtkHdfFaces faces = {};
     friend bool operator==(const VtkHdfStep&, const VtkHdfStep&) = default;
 };
 
@@ -46,17 +50,26 @@ class VtkHdfLayout {
         std::uint8_t shape;  // of all its cells, as VTK numbers them; 0: they have Types
         Sums cells, ids;
     };
+    // A part's cells; where their ends begin, and how many parts before have one end more than
+    // cells there; the first of its points in the grid.
+    struct Part {
+        std::uint64_t number, cells, endsAt, before, points, firstPoint;
+    };
     std::size_t parts() const { return points_.size() - 1; }
+    bool hasPolyhedra() const { return !faces_[0].empty(); }
     Sums sumsOf(const std::string& name) const;
     std::vector<std::uint64_t> numbersOfParts(const std::vector<std::uint64_t>& first) const;
     void readSteps();
+    void readFaceOffsets();
     void addCells(const Topology& topology, const VtkHdfStep& step, std::size_t which,
                   std::uint64_t part, std::uint64_t points, std::uint64_t firstPoint,
                   UnstructuredGrid& grid) const;
+    void addFaces(const VtkHdfStep& step, const Part& part, UnstructuredGrid& grid) const;
 
     const NetcdfFile& file_;
     Sums points_;
     std::vector<Topology> topologies_;
+    std::array<Sums, 3> faces_;  // as VtkHdfFaces; none where there are no polyhedra
     std::vector<VtkHdfStep> steps_;
     std::vector<double> times_;
 };

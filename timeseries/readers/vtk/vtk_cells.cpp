@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "timeseries/readers/face_tables.h"
 #include "timeseries/readers/vtk/vtk_xml_cells.h"
 
 namespace timeseries {
@@ -42,7 +43,9 @@ void addList(UnstructuredGrid& grid, std::uint64_t count, const VtkNumbers& conn
         grid.ends[cells + i] = vtkEnd(end, corners);
     });
     forEach("connectivity", connectivity, [&](std::uint64_t i, std::int64_t point) {
-        grid.corners[corners + i] = vtkCorner(point, points, firstPoint);
+        auto& corner = grid.corners[corners + i];
+        corner = vtkCorner(point, points, firstPoint);
+        if (corner == kNoPoint) grid.keepFirst({corners + i, point, points});
     });
 }
 
@@ -109,45 +112,22 @@ void VtkCellReader::addFaces(const VtkPiece& piece) {
     });
 }
 
-// As the older lists, in which a face stands once for each of its cells, of which there are two at
-// most: a damaged file might name a large one for many. What is wrong has no point.
 void VtkCellReader::addFaceTables(const VtkPiece& piece) {
-    const VtkFaceTables& tables = *piece.faceTables;
-    std::vector<std::uint32_t> corners(tables.corners.count, kNoPoint);
-    std::vector<std::uint64_t> ends(tables.ends.count), faces(tables.faces.count),
-        cellEnds(piece.cells);
-    forEach("face_connectivity", tables.corners, [&](std::uint64_t i, std::int64_t point) {
-        corners[i] = vtkCorner(point, piece.points, firstPoint_);
+    const VtkFaceTables& expected = *piece.faceTables;
+    FaceTables tables{std::vector<std::uint32_t>(expected.corners.count, kNoPoint),
+                      std::vector<std::uint64_t>(expected.ends.count),
+                      std::vector<std::uint64_t>(expected.faces.count),
+                      std::vector<std::uint64_t>(piece.cells)};
+    forEach("face_connectivity", expected.corners, [&](std::uint64_t i, std::int64_t point) {
+        tables.corners[i] = vtkCorner(point, piece.points, firstPoint_);
     });
     const auto take = [](std::vector<std::uint64_t>& to) {
         return [&to](std::uint64_t i, std::int64_t number) { to[i] = vtkEnd(number, 0); };
     };
-    forEach("face_offsets", tables.ends, take(ends));
-    forEach("polyhedron_to_faces", tables.faces, take(faces));
-    forEach("polyhedron_offsets", tables.cellEnds, take(cellEnds));
-    grid_.faceEnds.resize(grid_.types.size() - piece.cells, grid_.faces.size());
-    std::uint64_t next = 0, left = 2 * corners.size();
-    for (const std::uint64_t each : cellEnds) {
-        const std::uint64_t end = std::min<std::uint64_t>(each, faces.size());
-        if (next < each)
-            grid_.faces.push_back(
-                static_cast<std::uint32_t>(std::min<std::uint64_t>(each - next, kNoPoint)));
-        for (; next < end; ++next) {
-            const std::uint64_t face = faces[next];
-            const std::uint64_t first = face > 0 && face <= ends.size() ? ends[face - 1] : 0,
-                                last = face < ends.size() ? ends[face] : 0;
-            if (!(first < last && last <= corners.size() && last - first <= left)) {
-                grid_.faces.insert(grid_.faces.end(), {1, kNoPoint});
-                continue;
-            }
-            left -= last - first;
-            grid_.faces.push_back(static_cast<std::uint32_t>(last - first));
-            grid_.faces.insert(grid_.faces.end(),
-                               corners.begin() + static_cast<std::ptrdiff_t>(first),
-                               corners.begin() + static_cast<std::ptrdiff_t>(last));
-        }
-        grid_.faceEnds.push_back(grid_.faces.size());
-    }
+    forEach("face_offsets", expected.ends, take(tables.ends));
+    forEach("polyhedron_to_faces", expected.faces, take(tables.faces));
+    forEach("polyhedron_offsets", expected.cellEnds, take(tables.cellEnds));
+    timeseries::addFaces(tables, grid_);
 }
 
 int VtkCellReader::ReadPieceData() {
@@ -199,6 +179,8 @@ UnstructuredGrid VtkPolygonReader::takeCells() {
         const UnstructuredGrid more = std::move(grids_[k]);
         all.types.insert(all.types.end(), more.types.begin(), more.types.end());
         all.corners.insert(all.corners.end(), more.corners.begin(), more.corners.end());
+        if (const auto& none = more.noPoint)
+            all.keepFirst({corners + none->corner, none->number, none->points});
         for (const std::uint64_t end : more.ends)
             all.ends.push_back(vtkEnd(static_cast<std::int64_t>(end), corners));
     }

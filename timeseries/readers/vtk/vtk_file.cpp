@@ -5,11 +5,21 @@
 #include <algorithm>
 #include <fstream>
 
+#include "timeseries/grid/without_cells.h"
 #include "timeseries/readers/vtk/vtk_library.h"
 #include "timeseries/readers/vtk/vtk_xml_cells.h"
 #include "timeseries/readers/vtk/vtk_xml_numbers.h"
 
 namespace timeseries {
+namespace {
+
+void readGhosts(VtkHeader& header) {
+    header.ghostCells = readVtkGhostCells(header);
+    if (!isUnstructured(header.kind))
+        header.pointsOfGhosts = pointsOfGhosts(header.ghostCells, header.size(VtkPlace::Points));
+}
+
+}  // namespace
 
 bool isVtkLegacy(const std::filesystem::path& path) {
     std::string start(5, '\0');
@@ -26,7 +36,7 @@ bool isVtkSeries(const std::filesystem::path& path) {
 VtkHeader openVtkLegacy(const std::filesystem::path& path) {
     VtkHeader header = readVtkLegacyHeader(path);
     if (isStructured(header.kind)) header.places = readVtkFrame(header).places;
-    if (isUnstructured(header.kind)) header.ghostCells = readVtkGhostCells(header);
+    readGhosts(header);
     return header;
 }
 
@@ -37,7 +47,7 @@ VtkHeader openVtkXml(const XmlFile& file) {
     header.places = std::move(frame.places);
     header.unstructured = std::move(frame.unstructured);
     header.time = frame.time;
-    if (isUnstructured(header.kind)) header.ghostCells = readVtkGhostCells(header);
+    readGhosts(header);
     if (header.kind == VtkKind::XmlRectilinear)
         for (std::size_t i = 0; i < 3; ++i)
             if (header.coordinates[i].size() != header.size(VtkPlace::Points)[i])

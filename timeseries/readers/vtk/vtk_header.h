@@ -111,7 +111,8 @@ struct VtkHeader {
     // Of structured grids, x fastest; VTK reads them later.
     std::vector<glm::dvec3> places;
     UnstructuredGrid unstructured;
-    std::vector<bool> ghostCells;  // of them, that are another file's, or hidden; empty: none
+    std::vector<bool> ghostCells;      // that are another file's, or hidden; empty: none
+    std::vector<bool> pointsOfGhosts;  // along indices: those of ghost cells alone; empty: none
     std::optional<VtkTime> time;
 
     std::array<std::uint64_t, 3> size(VtkPlace place) const;

@@ -12,11 +12,14 @@ namespace timeseries {
 namespace {
 
 // One that is no index is told as a point that there is not.
-std::vector<std::uint32_t> indices(VtkText& text, std::string_view type, std::uint64_t count) {
+std::vector<std::uint32_t> indices(VtkText& text, std::string_view type, std::uint64_t count,
+                                   std::optional<std::int64_t>* none = nullptr) {
     std::vector<std::uint32_t> found(count);
     const std::vector<double> numbers = text.numbers(*vtkLegacyType(type), count);
-    std::ranges::transform(numbers, found.begin(), [](double number) {
-        return number >= 0 && number < kNoPoint ? static_cast<std::uint32_t>(number) : kNoPoint;
+    std::ranges::transform(numbers, found.begin(), [&](double number) {
+        if (number >= 0 && number < kNoPoint) return static_cast<std::uint32_t>(number);
+        if (none && !*none && std::abs(number) < 0x1p62) *none = static_cast<std::int64_t>(number);
+        return kNoPoint;
     });
     return found;
 }
@@ -96,10 +99,10 @@ void VtkLegacyCells::readCells(VtkText& text, Lists& lists) {
         const auto offsets = indices(text, endType, count);
         if (!offsets.empty()) lists.ends.assign(offsets.begin() + 1, offsets.end());
         const std::string type = typeOf(text, "connectivity");
-        lists.numbers = indices(text, type, entries);
+        lists.numbers = indices(text, type, entries, &lists.none);
         return;
     }
-    const auto all = indices(text, "int", entries);
+    const auto all = indices(text, "int", entries, &lists.none);
     std::size_t next = 0;
     for (std::uint64_t cell = 0; cell < count; ++cell) {
         const std::size_t length = next < all.size() ? all[next] : all.size();
@@ -141,6 +144,15 @@ void VtkLegacyCells::addPolyhedron(const VtkText& text, std::span<const std::uin
     grid_.corners.erase(std::unique(begin, grid_.corners.end()), grid_.corners.end());
 }
 
+void VtkLegacyCells::addCorners(std::span<const std::uint32_t> list,
+                                const std::optional<std::int64_t>& none) {
+    const auto found = std::ranges::find(list, kNoPoint);
+    if (none && found != list.end())
+        grid_.keepFirst({grid_.corners.size() + static_cast<std::size_t>(found - list.begin()),
+                         *none, grid_.points.size()});
+    grid_.corners.insert(grid_.corners.end(), list.begin(), list.end());
+}
+
 void VtkLegacyCells::add(const VtkText& text, const Lists& lists, std::size_t firstType) {
     const bool hasFaces = std::ranges::find(grid_.types, kPolyhedron) != grid_.types.end();
     std::uint64_t first = 0;
@@ -153,7 +165,7 @@ void VtkLegacyCells::add(const VtkText& text, const Lists& lists, std::size_t fi
         if (grid_.types[firstType + cell] == kPolyhedron)
             addPolyhedron(text, list);
         else
-            grid_.corners.insert(grid_.corners.end(), list.begin(), list.end());
+            addCorners(list, lists.none);
         grid_.ends.push_back(grid_.corners.size());
         if (hasFaces) grid_.faceEnds.push_back(grid_.faces.size());
         first = last;

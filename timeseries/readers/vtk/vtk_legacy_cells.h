@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,11 +32,14 @@ class VtkLegacyCells {
     struct Lists {
         std::vector<std::uint64_t> ends;
         std::vector<std::uint32_t> numbers;  // points, or a polyhedron's faces
+        std::optional<std::int64_t> none;    // the first of them that is no point, if it is known
         bool isThere = false;
     };
     void readCells(VtkText& text, Lists& lists);
     void readTypes(VtkText& text);
     void add(const VtkText& text, const Lists& lists, std::size_t firstType);
+    // `none`: what the first one that is no point is.
+    void addCorners(std::span<const std::uint32_t> list, const std::optional<std::int64_t>& none);
     // The list of a polyhedron: its faces.
     void addPolyhedron(const VtkText& text, std::span<const std::uint32_t> list);
 

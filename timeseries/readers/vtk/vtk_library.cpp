@@ -33,6 +33,7 @@
 #include <type_traits>
 
 #include "timeseries/grid/with_type.h"
+#include "timeseries/grid/without_cells.h"
 #include "timeseries/readers/vtk/vtk_cells.h"
 #include "timeseries/readers/vtk/vtk_raw_cells.h"
 #include "timeseries/readers/vtk/vtk_values.h"
@@ -335,6 +336,8 @@ void readVtkArray(const VtkHeader& header, const VtkArray& array, VtkPart part,
                             typeName(array.type), array.components));
     takeVtkValues(*arrays.values, array, part, layout, field);
     if (arrays.ghosts) takeVtkGhosts(*arrays.ghosts, array.place, layout, field.missing);
+    if (array.place == VtkPlace::Points && !header.pointsOfGhosts.empty())
+        leaveOut(arranged(header.pointsOfGhosts, layout), field.missing);
 }
 
 }  // namespace timeseries

@@ -20,8 +20,7 @@ struct VtkFrame {
 // REQUIRES: an XML header, or one of a structured grid. Throws FileError.
 VtkFrame readVtkFrame(const VtkHeader& header);
 
-// Of cells that are listed, by vtkGhostType; none where it says that of no cell. REQUIRES: a header
-// of such. Throws FileError.
+// By vtkGhostType; none where it says that of no cell. Throws FileError.
 std::vector<bool> readVtkGhostCells(const VtkHeader& header);
 
 // What a variable takes of an array's components.

@@ -246,12 +246,15 @@ void listVtkCells(VtkHeader& block, const std::vector<bool>& covered) {
     UnstructuredGrid& grid = block.unstructured;
     const auto places = isStructured(block.kind) ? std::move(block.places) : placesOf(block);
     grid.points.assign(places.begin(), places.end());
+    std::vector<bool> ghosts;
     forEachCell(block, [&](std::uint64_t cell, std::span<const std::uint32_t> corners) {
         if (!covered.empty() && covered[cell]) return;
+        if (!block.ghostCells.empty()) ghosts.push_back(block.ghostCells[cell]);
         grid.corners.insert(grid.corners.end(), corners.begin(), corners.end());
         grid.ends.push_back(grid.corners.size());
         grid.types.push_back(kShapes[corners.size()]);
     });
+    block.ghostCells = std::move(ghosts);
     block.pieces = {VtkPiece{.points = grid.points.size(),
                              .cells = grid.types.size(),
                              .places = {},

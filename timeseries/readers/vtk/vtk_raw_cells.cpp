@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 
 #include "timeseries/grid/with_type.h"
 #include "timeseries/readers/vtk/vtk_xml_cells.h"
@@ -90,9 +91,14 @@ void addPiece(const RawNumbers& numbers, const VtkPiece& piece, UnstructuredGrid
     numbers.forEach(piece.offsets, [&](std::uint64_t i, auto end) {
         grid.ends[cells + i] = vtkEnd(static_cast<std::int64_t>(end), corners);
     });
-    numbers.forEach(piece.connectivity, [&](std::uint64_t i, auto point) {
-        grid.corners[corners + i] =
-            vtkCorner(static_cast<std::int64_t>(point), piece.points, points);
+    std::mutex flaws;
+    numbers.forEach(piece.connectivity, [&](std::uint64_t i, auto number) {
+        const auto point = static_cast<std::int64_t>(number);
+        auto& corner = grid.corners[corners + i];
+        corner = vtkCorner(point, piece.points, points);
+        if (corner != kNoPoint) return;
+        const std::lock_guard lock(flaws);
+        grid.keepFirst({corners + i, point, piece.points});
     });
 }
 

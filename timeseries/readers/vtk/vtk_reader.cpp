@@ -40,6 +40,14 @@ OpenedStep frameOf(VtkContents contents) {
     return frame;
 }
 
+// Of points along indices those of ghost cells alone are missing, too.
+bool hasGhosts(const VtkHeader& header, VtkPlace place) {
+    const auto& [atPoints, atCells] = header.ghosts;
+    if (place == VtkPlace::Cells) return atCells;
+    const bool areListed = isUnstructured(header.kind) && header.kind != VtkKind::XmlBlocks;
+    return atPoints || (atCells && !areListed);
+}
+
 class VtkReader final : public Reader {
  public:
     // `first` is of the first member.
@@ -111,7 +119,8 @@ void VtkReader::add(VtkVariable of) {
     variable.name = of.name;
     variable.type = of.type;
     variable.storedAs = of.storedAs;
-    if (frame_.header().ghosts[place]) variable.missing = "ghost and blanked, by vtkGhostType";
+    if (hasGhosts(frame_.header(), of.array.place))
+        variable.missing = "ghost and blanked, by vtkGhostType";
     if (!of.array.isEverywhere)
         variable.missing += std::string(variable.missing.empty() ? "" : "; ") + "blocks without it";
     variable.grid = frame_.grids[place]->grid;

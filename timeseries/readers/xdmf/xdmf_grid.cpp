@@ -269,8 +269,12 @@ void XdmfGrid::addCells(const XdmfElement& topology, std::uint64_t points) {
             cells_.ends.push_back(first + end);
         }
     }
-    for (std::size_t i = first; i < cells_.corners.size(); ++i)
-        cells_.corners[i] = place(cells_.corners[i]);
+    for (std::size_t i = first; i < cells_.corners.size(); ++i) {
+        const std::uint32_t id = cells_.corners[i];
+        cells_.corners[i] = place(id);
+        if (cells_.corners[i] == kNoPoint && id != kNoPoint)
+            cells_.keepFirst({i, static_cast<std::int64_t>(id), points});
+    }
 }
 
 // Each cell is the number of its shape, of some how many corners, and these.
