@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <string>
@@ -84,7 +85,38 @@ std::optional<double> valuePassed(const SortedStep& step, double from, End end, 
 }
 
 // Short enough for a field; floats that were stored as such read as they were written.
-std::string sideText(double coordinate) { return fmt::format("{:.7g}", coordinate); }
+std::string sideText(double coordinate, int digits = kClipDigits) {
+    return fmt::format("{:.{}g}", coordinate, digits);
+}
+
+// Of an axis, unbounded ends as its own.
+Extent sideOf(const std::optional<ClipBox>& clip, const timeseries::Grid& grid, std::size_t axis) {
+    const auto [least, most] = grid.ends(axis);
+    if (!clip) return {least, most};
+    const int i = static_cast<int>(axis);
+    return {std::max(clip->lo[i], least), std::min(clip->hi[i], most)};
+}
+
+double asShown(double coordinate, int digits) {
+    return std::strtod(sideText(coordinate, digits).c_str(), nullptr);
+}
+
+// Unbounded where nothing is said.
+Extent typedSide(std::string_view text) {
+    if (std::ranges::all_of(text, [](char c) { return c == ' '; })) return {-kInfinity, kInfinity};
+    try {
+        const RangeSet set = RangeSet::parse(text);
+        if (set.ranges().size() != 1)
+            throw ChoiceError(fmt::format("clip '{}': one side of a box is one range", text));
+        const Range& range = set.ranges().front();
+        if (range.lo.open || range.hi.open)
+            throw ChoiceError(
+                fmt::format("clip '{}': a box has closed ends, without brackets", text));
+        return {timeseries::toDouble(range.lo.value), timeseries::toDouble(range.hi.value)};
+    } catch (const timeseries::RangeSyntaxError& error) {
+        throw ChoiceError(fmt::format("clip '{}': {}", text, error.what()));
+    }
+}
 
 bool isBounded(const Bound& bound) { return std::isfinite(timeseries::toDouble(bound.value)); }
 
@@ -163,48 +195,46 @@ std::optional<ClipBox> withClipEnd(const std::optional<ClipBox>& clip, const tim
 
 std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
                                     const timeseries::Grid& grid, std::size_t axis,
-                                    std::string_view text) {
-    const auto [least, most] = grid.ends(axis);
-    const auto isBlank = [](char c) { return c == ' '; };
-    Range range{{-kInfinity}, {kInfinity}};
-    if (!std::ranges::all_of(text, isBlank)) {
-        try {
-            const RangeSet set = RangeSet::parse(text);
-            if (set.ranges().size() != 1)
-                throw ChoiceError(fmt::format("clip '{}': one side of a box is one range", text));
-            range = set.ranges().front();
-            if (range.lo.open || range.hi.open)
-                throw ChoiceError(
-                    fmt::format("clip '{}': a box has closed ends, without brackets", text));
-        } catch (const timeseries::RangeSyntaxError& error) {
-            throw ChoiceError(fmt::format("clip '{}': {}", text, error.what()));
-        }
-    }
-    double lo = timeseries::toDouble(range.lo.value), hi = timeseries::toDouble(range.hi.value);
+                                    std::string_view text, int digits) {
+    const ClipBox open{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)};
+    ClipBox box = clip.value_or(open);
+    double &nowLo = box.lo[static_cast<int>(axis)], &nowHi = box.hi[static_cast<int>(axis)];
+    auto [lo, hi] = typedSide(text);
     if (lo == hi && std::isfinite(lo) && grid.mesh()) {
         throw ChoiceError(fmt::format(
             "clip '{}': the points of this grid lie in no plane: give a range, from:to", text));
     } else if (lo == hi && std::isfinite(lo)) {
         lo = hi = grid.nearestPlane(axis, lo);
     } else {
+        const auto [least, most] = grid.ends(axis);
+        const auto [shownLo, shownHi] = sideOf(clip, grid, axis);
         if (sideText(lo) == sideText(least)) lo = -kInfinity;
         if (sideText(hi) == sideText(most)) hi = kInfinity;
+        if (lo == asShown(shownLo, digits)) lo = nowLo;
+        if (hi == asShown(shownHi, digits)) hi = nowHi;
     }
-    const ClipBox open{glm::dvec3(-kInfinity), glm::dvec3(kInfinity)};
-    ClipBox box = clip.value_or(open);
-    box.lo[static_cast<int>(axis)] = lo;
-    box.hi[static_cast<int>(axis)] = hi;
+    nowLo = lo;
+    nowHi = hi;
     if (const std::string flaw = clipFlaw(box, grid); !flaw.empty()) throw ChoiceError(flaw);
     return box == open ? std::nullopt : std::optional(box);
 }
 
 std::string clipSideText(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
-                         std::size_t axis) {
-    const auto [least, most] = grid.ends(axis);
-    const int i = static_cast<int>(axis);
-    const double lo = clip ? std::max(clip->lo[i], least) : least,
-                 hi = clip ? std::min(clip->hi[i], most) : most;
-    return lo == hi ? sideText(lo) : fmt::format("{}:{}", sideText(lo), sideText(hi));
+                         std::size_t axis, int digits) {
+    const auto [lo, hi] = sideOf(clip, grid, axis);
+    const std::string low = sideText(lo, digits);
+    return lo == hi ? low : fmt::format("{}:{}", low, sideText(hi, digits));
+}
+
+int clipDigits(const std::optional<ClipBox>& clip, const timeseries::Grid& grid, std::size_t axis,
+               const std::function<bool(std::string_view text)>& fits) {
+    constexpr int kFewest = 3;
+    const Extent side = sideOf(clip, grid, axis);
+    int digits = kClipDigits;
+    while (digits > kFewest && !fits(clipSideText(clip, grid, axis, digits)) &&
+           (side.lo == side.hi || sideText(side.lo, digits - 1) != sideText(side.hi, digits - 1)))
+        --digits;
+    return digits;
 }
 
 void removeLayer(Explorer& explorer, std::size_t layer) {

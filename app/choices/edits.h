@@ -4,6 +4,11 @@
 // roundedTo.
 #pragma once
 
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
 #include "app/choices/decimals.h"
 #include "app/choices/explorer.h"
 #include "app/choices/selection_text.h"
@@ -38,14 +43,18 @@ std::optional<ClipBox> withClipEnd(const std::optional<ClipBox>& clip, const tim
 
 // One side of the clip box as it is typed: "2:5.5", "min:3", "" for all of the axis; a value alone
 // is a slice, the grid's plane nearest to it. An end that reads as the axis's own does is that end,
-// whatever digits it was told with. Throws ChoiceError where that is none of these or holds no
-// point of the grid.
+// whatever digits it was told with; one that reads as it was shown, with so many digits, stays as
+// it is. Throws ChoiceError where that is none of these or holds no point of the grid.
+constexpr int kClipDigits = 7;
 std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
                                     const timeseries::Grid& grid, std::size_t axis,
-                                    std::string_view text);
+                                    std::string_view text, int digits = kClipDigits);
 // What stands for that side in a field, unbounded ends as the axis's.
 std::string clipSideText(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
-                         std::size_t axis);
+                         std::size_t axis, int digits = kClipDigits);
+// As many digits as that text has room for, but no fewer than tell its ends apart, nor than three.
+int clipDigits(const std::optional<ClipBox>& clip, const timeseries::Grid& grid, std::size_t axis,
+               const std::function<bool(std::string_view text)>& fits);
 
 // The layer at this place taken away. The last one leaves none: no first choice takes its place.
 void removeLayer(Explorer& explorer, std::size_t layer);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "app/choices/choice_text.h"
 #include "app/choices/decimals.h"
 
 namespace app {
@@ -24,6 +25,11 @@ std::vector<double> finiteSorted(const Quantiles& sampled) {
                              [](double v) { return std::isfinite(v); });
     std::ranges::sort(all);
     return all;
+}
+
+Extent endsOf(const std::vector<double>& sorted) {
+    if (sorted.empty()) return {};
+    return {sorted.front(), sorted.back()};
 }
 
 // The middle of the shortest interval that holds half of the values (the half-sample mode's first
@@ -109,11 +115,8 @@ LayerChoice choiceOf(const std::vector<double>& sorted) {
             MapChoice{*render::colorMapNamed(name), std::clamp(from, -kMostFinite, kMostFinite),
                       std::clamp(to, -kMostFinite, kMostFinite)};
     };
-    // The map's dark end lies below the range: on a dark ground it would not be seen.
-    const auto mappedFrom = [&](double low) { mapped("inferno", low - kDarkEnd * (hi - low), hi); };
-    const auto mappedTo = [&](double high) {
-        mapped("viridis", lo - kDarkEnd * (high - lo), high);
-    };
+    const auto mappedFrom = [&](double low) { mapped("inferno", darkEnds({low, hi}).lo, hi); };
+    const auto mappedTo = [&](double high) { mapped("viridis", darkEnds({lo, high}).lo, high); };
     if (std::min(above, below) > kTwoSided * scale) {
         layer.ranges = farFrom(sorted, middle, scale);
         const auto sides = layer.ranges.ranges();
@@ -169,10 +172,12 @@ double opacityFor(std::uint64_t selectedPoints) {
     return std::clamp(-std::expm1(-kOpticalDepth / thickness), 0.01, 0.9);
 }
 
-Extent extentOf(const Quantiles& sampled) {
-    const std::vector<double> sorted = finiteSorted(sampled);
-    if (sorted.empty()) return {};
-    return {sorted.front(), sorted.back()};
+Extent extentOf(const Quantiles& sampled) { return endsOf(finiteSorted(sampled)); }
+
+Extent extentAsideFill(const Quantiles& sampled) {
+    std::vector<double> sorted = finiteSorted(sampled);
+    if (const auto fill = sorted.empty() ? std::nullopt : fillOf(sorted)) std::erase(sorted, *fill);
+    return endsOf(sorted);
 }
 
 }  // namespace app

@@ -18,9 +18,6 @@ using Quantiles = std::vector<std::vector<double>>;
 // left out: land, say. A constant field selects everything; no points, nothing but the whole range.
 LayerChoice firstChoice(const Quantiles& sampled);
 
-// The share of a range by which a map that was not asked for begins below it.
-constexpr double kDarkEnd = 0.3;
-
 // Opacity at which a lump of so many cells, as thick as wide, is seen through but plainly there:
 // an optical depth of about 4 through its middle.
 double opacityFor(std::uint64_t selectedPoints);
@@ -28,7 +25,17 @@ double opacityFor(std::uint64_t selectedPoints);
 // The finite extent of the sampled values; {0, 0} without any.
 struct Extent {
     double lo = 0, hi = 0;
+    friend bool operator==(const Extent&, const Extent&) = default;
 };
 Extent extentOf(const Quantiles& sampled);
+// But for the value that firstChoice() leaves out.
+Extent extentAsideFill(const Quantiles& sampled);
+
+// The share of a range by which a map that was not asked for begins below it, and the ends of such
+// a map: its dark end would not be seen on a dark ground.
+constexpr double kDarkEnd = 0.3;
+inline Extent darkEnds(const Extent& range) {
+    return {range.lo - kDarkEnd * (range.hi - range.lo), range.hi};
+}
 
 }  // namespace app

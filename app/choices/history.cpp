@@ -9,10 +9,10 @@ History::History(Explorer start) { states_.push_back(std::move(start)); }
 
 void History::edit(Explorer next, std::string_view gesture) {
     if (next == now()) return;
-    const bool goesOn = !gesture.empty() && gesture == gesture_;
+    const bool isSame = goesOn(gesture);
     gesture_ = gesture;
     states_.erase(states_.begin() + static_cast<std::ptrdiff_t>(at_) + 1, states_.end());
-    if (goesOn) {
+    if (isSame) {
         states_[at_] = std::move(next);
         return;
     }

@@ -18,6 +18,10 @@ class History {
     explicit History(Explorer start = {});
 
     const Explorer& now() const { return states_[at_]; }
+    // What an edit of this gesture changes: now(), or where the gesture that goes on began.
+    const Explorer& before(std::string_view gesture) const {
+        return states_[goesOn(gesture) ? at_ - 1 : at_];
+    }
 
     // The user's doing. Nothing when `next` equals now(). What was undone is forgotten. Edits of
     // one gesture (a drag, a held key, a slider: any text but "") that follow each other are one
@@ -36,6 +40,7 @@ class History {
     void redo();
 
  private:
+    bool goesOn(std::string_view gesture) const { return !gesture.empty() && gesture == gesture_; }
     void goTo(std::size_t at);
 
     std::deque<Explorer> states_;  // at most kSteps before at_

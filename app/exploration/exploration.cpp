@@ -11,6 +11,7 @@
 #include "app/choices/map_flaw.h"
 #include "app/exploration/exploration_state.h"
 #include "app/exploration/followed_playback.h"
+#include "app/picture/fitted_map.h"
 #include "app/picture/picture.h"
 #include "app/picture/resolved.h"
 #include "timeseries/index/byte_source.h"
@@ -23,6 +24,21 @@ using timeseries::SortedStep;
 
 constexpr std::size_t kAhead = 32;  // steps asked for before play comes to them
 constexpr std::size_t kMostMessages = 100;
+
+// Ends of the data that maps may have been fitted to: those of the step shown first.
+std::vector<Extent> extentsSeen(const timeseries::Series& series, std::size_t shown) {
+    std::vector<Extent> seen;
+    const auto take = [&](std::size_t step) {
+        const timeseries::StepSummary* summary = series.summary(step);
+        if (summary == nullptr || summary->quantiles.empty()) return;
+        seen.push_back({summary->quantiles.front(), summary->quantiles.back()});
+        if (step == shown) seen.push_back(extentAsideFill({summary->quantiles}));
+    };
+    take(shown);
+    for (std::size_t step = 0; step < series.stepCount(); ++step)
+        if (step != shown) take(step);
+    return seen;
+}
 
 }  // namespace
 
@@ -51,6 +67,9 @@ void Exploration::change(Explorer next, std::string_view gesture) {
                     throw ChoiceError(flaw);
             followMap(next, explorer().map, open_->sorted->grid());
             if (needsSamples(next)) next = resolved(next, {{open_->step, open_->sorted}});
+            if (next.layers != explorer().layers)
+                refitMaps(next, explorer(), history_.before(gesture),
+                          extentsSeen(open_->steps.series(), open_->step));
             timeseries::Playback playback = followed(playback_, explorer(), next);
             open_->counts = pointCounts(next, *open_->sorted);
             playback_ = std::move(playback);

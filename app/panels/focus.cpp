@@ -76,6 +76,8 @@ bool Focus::press(const KeyPress& key, bool typing) {
 
 void Focus::endTyping() { ImGui::ClearActiveID(); }
 
+void Focus::expectText() { untilTyping_ = kFramesUntilTyping + 1; }
+
 void Focus::tab(bool back) {
     const auto stops = [&](const Control& c) { return c.isStop || c.id == place_; };
     std::vector<const Control*> ring;

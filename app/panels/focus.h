@@ -72,6 +72,8 @@ class Focus {
     static void endTyping();
     // Text may come before the field that has just got the focus has begun to take it.
     bool expectsText() const { return untilTyping_ > 0; }
+    // So it may before one takes it again from the next frame on.
+    void expectText();
 
  private:
     bool press(const KeyPress& key, bool typing);

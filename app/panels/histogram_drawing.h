@@ -2,8 +2,10 @@
 // hand.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
+#include "app/choices/decimals.h"
 #include "app/panels/histogram_panel.h"
 #include "render/annotate/ticks.h"
 
@@ -22,6 +24,10 @@ struct HistogramPanel::Drawing {
     const Explorer& explorer() const { return context.exploration.explorer(); }
     bool hasMap() const { return at.map.size().x > 0; }
     Rect across() const { return {at.histogram.min, {at.map.max.x, at.map.max.y}}; }
+    // What is dragged to a height: no farther than the axis shown, to a pixel's digits.
+    double draggedTo(float y) const {
+        return roundedTo(std::clamp(axis.valueAt(y), axis.lo, axis.hi), axis.perPixel());
+    }
     std::string withUnit(const std::string& number) const {
         const std::string unit = render::shownUnit(shown.dataset.variable.units);
         return unit.empty() ? number : number + " " + unit;

@@ -108,7 +108,7 @@ HistogramPanel::Grab HistogramPanel::gripAt(const Drawing& f, glm::vec2 mouse) c
 
 void HistogramPanel::drag(const Drawing& f, glm::vec2 mouse) {
     PanelContext& context = f.context;
-    const double value = roundedTo(f.axis.valueAt(mouse.y), f.axis.perPixel());
+    const double value = f.draggedTo(mouse.y);
     const glm::vec2 moved = glm::abs(mouse - grab_.pressedAt);
     const auto setRanges = [&](const RangeSet& ranges) {
         edit(context, "histogram", [&](Explorer& e) {
@@ -128,9 +128,9 @@ void HistogramPanel::drag(const Drawing& f, glm::vec2 mouse) {
         case Grip::Hi:
             context.choices.layer = grab_.layer;
             if (moved.y < 1) return;
-            return setRanges(
-                withEnd(grab_.ranges, grab_.range, grab_.grip == Grip::Lo ? End::Lo : End::Hi,
-                        roundedTo(f.axis.valueAt(mouse.y - grab_.off), f.axis.perPixel())));
+            return setRanges(withEnd(grab_.ranges, grab_.range,
+                                     grab_.grip == Grip::Lo ? End::Lo : End::Hi,
+                                     f.draggedTo(mouse.y - grab_.off)));
         case Grip::Band:
             context.choices.layer = grab_.layer;
             if (moved.y < 1) return;
@@ -174,8 +174,7 @@ void HistogramPanel::drag(const Drawing& f, glm::vec2 mouse) {
 // From here on the drag makes a range: of the selected layer, or of a layer of its own.
 void HistogramPanel::dragNew(const Drawing& f, glm::vec2 mouse) {
     const std::vector<LayerChoice>& layers = f.explorer().layers;
-    const double from = roundedTo(grab_.valueAt, f.axis.perPixel()),
-                 value = roundedTo(f.axis.valueAt(mouse.y), f.axis.perPixel());
+    const double from = roundedTo(grab_.valueAt, f.axis.perPixel()), value = f.draggedTo(mouse.y);
     grab_.grip = Grip::NewRange;
     const bool full = layers.size() >= render::kMaxLayers;
     const bool noneStands = layers.empty() || layers.back().motion;

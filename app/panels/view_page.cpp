@@ -107,14 +107,18 @@ void ViewPage::clip(PanelContext& context, Form& form) {
                 e.clip = withClipEnd(e.clip, grid, place, End::Hi, hi < 1 ? at(hi) : kInfinity);
             });
         const Rect field{{row.max.x - kSideField * s, row.min.y}, row.max};
-        const auto entered =
-            clip_[place].draw(context.theme, "##side", field,
-                              clipSideText(context.exploration.explorer().clip, grid, place));
+        const std::optional<ClipBox> box = context.exploration.explorer().clip;
+        const int digits = clipDigits(box, grid, place, [&](std::string_view text) {
+            return widthOf(*context.theme.text, text) <= field.size().x - 2 * TextField::kPad * s;
+        });
+        const auto entered = clip_[place].draw(context.theme, "##side", field,
+                                               clipSideText(box, grid, place, digits));
         ImGui::PopID();
         if (!entered) continue;
         try {
-            edit(context, {},
-                 [&](Explorer& e) { e.clip = withClipSide(e.clip, grid, place, *entered); });
+            edit(context, {}, [&](Explorer& e) {
+                e.clip = withClipSide(e.clip, grid, place, *entered, digits);
+            });
         } catch (const ChoiceError& error) {
             clip_[place].refuse(error.what());
         }

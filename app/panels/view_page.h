@@ -10,7 +10,7 @@ namespace app::panels {
 class ViewPage {
  public:
     // Of a side of the clip box, right of its slider; in units of the design.
-    static constexpr float kSideField = 124, kSideGap = 8;
+    static constexpr float kSideField = 148, kSideGap = 8;
 
     void draw(PanelContext& context, const Rect& at);
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "app/panels/field_text.h"
 
@@ -231,12 +232,14 @@ std::optional<std::string> TextField::draw(const Theme& theme, const char* id, c
     ImGui::SetCursorScreenPos(im(at.min));
     ImGui::SetNextItemWidth(at.size().x);
     const float pad = 0.5f * (at.size().y - theme.text->FontSize);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {8 * theme.scale, std::max(0.0f, pad)});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {kPad * theme.scale, std::max(0.0f, pad)});
+    if (std::exchange(retakes_, false)) ImGui::SetKeyboardFocusHere();
     if (takesText(id, at)) ImGui::SetKeyboardFocusHere();
     const bool entered = inputText(id, hint, typed_);
     ImGui::PopStyleVar();
     if (ImGui::IsItemActivated()) focus().touch(ImGui::GetID(id));
     active_ = ImGui::IsItemActive();
+    entered_ = entered;
     if (typed_ != refused_) why_.clear();
     list().AddRect(im(at.min), im(at.max),
                    !why_.empty() ? kError
@@ -256,6 +259,8 @@ std::optional<std::string> TextField::draw(const Theme& theme, const char* id, c
 void TextField::refuse(std::string why) {
     why_ = std::move(why);
     refused_ = typed_;
+    retakes_ = entered_;
+    if (entered_) focus().expectText();
 }
 
 // Over what lies below, or above where the window ends.

@@ -66,12 +66,15 @@ bool inputText(const char* id, const char* hint, std::string& text);
 // text again otherwise. Keeps what is being typed while it is active.
 class TextField {
  public:
+    static constexpr float kPad = 8;  // beside the text, in units of the design
+
     // `shown`: what stands there while nobody types.
     std::optional<std::string> draw(const Theme& theme, const char* id, const Rect& at,
                                     std::string_view shown, const char* hint = "");
     bool active() const { return active_; }
     // What was entered cannot be, as one sentence says: both stay, the sentence below the field,
-    // until the text is changed, given up with Escape, or another is to be shown.
+    // until the text is changed, given up with Escape, or another is to be shown. After Enter it
+    // keeps the keyboard.
     void refuse(std::string why);
 
  private:
@@ -79,6 +82,8 @@ class TextField {
 
     std::string typed_, shown_;
     bool active_ = false;
+    bool entered_ = false;       // with Enter, in the frame that was drawn last
+    bool retakes_ = false;       // the keyboard, when it is drawn next
     std::string why_, refused_;  // the sentence, and the text that it is about; "": none
 };
 

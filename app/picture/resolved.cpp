@@ -59,9 +59,9 @@ bool infinite(const RangeSet& ranges) {
 void style(LayerChoice& layer, const Extent& ends, std::size_t place, std::size_t count) {
     if (!layer.color) {
         if (count == 1) {
-            // Nobody asked for exact ends: the map's dark end lies below the range, where it would
-            // not be seen on the dark ground.
-            layer.color = MapChoice{{}, ends.lo - kDarkEnd * (ends.hi - ends.lo), ends.hi};
+            // Nobody asked for exact ends.
+            const Extent dark = darkEnds(ends);
+            layer.color = MapChoice{{}, dark.lo, dark.hi};
         } else {
             layer.color = kLayerColors[place];
         }

@@ -184,15 +184,15 @@ class Writer {
         if (byValue(layer) && detail.scales) drawScale(barOf(layer), y + 0.2f * line_);
     }
 
-    // The outline shows the colour, the inside how much of it one unit length adds.
+    // Full of the colour that much of the layer has: one unit length of it adds less. Of none at
+    // all only the outline.
     void drawSwatch(const LegendLayer& layer, float width, float top) {
         const glm::vec2 from = glm::round(glm::vec2(margin_, top + 0.2f * line_));
         const glm::vec2 to = from + glm::vec2(width, std::round(0.6f * line_));
         if (const auto* constant = std::get_if<Constant>(&layer.style.color)) {
             const glm::vec3 color(constant->linearRgb);
-            const auto opacity = static_cast<float>(std::clamp(layer.style.opacity, 0.0, 1.0));
             const float rim = std::max(1.0f, std::round(line_ / 16));
-            mesh_.rect(from + rim, to - rim, glm::vec4(color * opacity, opacity));
+            if (layer.style.opacity > 0) mesh_.rect(from + rim, to - rim, glm::vec4(color, 1));
             frame(from, to, rim, glm::vec4(color, 1));
         } else {
             bar(barOf(layer), from, to);

@@ -11,7 +11,6 @@
 #include "app/choices/first_choice.h"
 #include "app/choices/layer_colors.h"
 #include "app/choices/sweep_edits.h"
-#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/selection_oracle.h"
 
@@ -276,74 +275,6 @@ TEST(AddLayer, CountsWhatOfItWasKept) {
     Explorer e;
     addLayer(e, RangeSet::parse("400:599"), step);
     EXPECT_EQ(e.layers[0].opacity, opacityFor(100));
-}
-
-TEST(ClipSide, IsReadAsItIsTyped) {
-    timeseries::Axis down = tests::axis(5, 10);  // 10 to 14
-    std::ranges::reverse(down.coordinates);
-    timeseries::Axis stored = tests::axis(4, 0, 0.1f);  // 0 to 0.30000000447...
-    const timeseries::Grid grid(std::array{tests::axis(5), down, stored});
-    const auto typed = [&](std::string_view text, std::size_t axis = 0,
-                           const std::optional<ClipBox>& clip = {}) {
-        const auto box = withClipSide(clip, grid, axis, text);
-        return box ? clipText(*box) : "none";
-    };
-    EXPECT_EQ(typed("1.5:3"), "1.5:3,min:max,min:max");
-    EXPECT_EQ(typed("min:3"), "min:3,min:max,min:max");
-    EXPECT_EQ(typed("11:12.5", 1, parseClip("1.5:3,min:max,min:max")), "1.5:3,11:12.5,min:max");
-    for (const char* all : {"", "  ", "min:max", "0:4", "-9:9"})
-        EXPECT_TRUE(typed(all) == "none" || typed(all) == "-9:9,min:max,min:max") << all;
-    EXPECT_EQ(typed("", 0, parseClip("1.5:3,11:12,min:max")), "min:max,11:12,min:max");
-    // A slice: the plane that is nearest.
-    EXPECT_EQ(typed("2.4"), "2:2,min:max,min:max");
-    EXPECT_EQ(typed("2.6"), "3:3,min:max,min:max");
-    EXPECT_EQ(typed("99", 1), "min:max,14:14,min:max");
-    // The last plane is not lost to the digits that its end was told with.
-    ASSERT_GT(stored.coordinates.back(), 0.3);
-    EXPECT_EQ(clipSideText({}, grid, 2), "0:0.3");
-    EXPECT_EQ(typed("0.1:0.3", 2), "min:max,min:max,0.1:max");
-}
-
-TEST(ClipSide, WhatCannotBeIsRefusedInASentence) {
-    const timeseries::Grid grid(std::array{tests::axis(5), tests::axis(5), tests::axis(5)});
-    for (const auto& [text, says] :
-         {std::pair("abc", "abc"), std::pair("1:2,3:4", "one range"), std::pair("[1,2)", "closed"),
-          std::pair("1.2:1.8", "x, from 0 to 4"), std::pair("5:9", "x, from 0 to 4")}) {
-        try {
-            withClipSide({}, grid, 0, text);
-            ADD_FAILURE() << text;
-        } catch (const ChoiceError& error) {
-            EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
-        }
-    }
-}
-
-TEST(ClipSide, OfAMeshIsARangeOfCoordinates) {
-    const auto mesh = tests::curvilinear(
-        {5, 5, 5}, [](double i, double j, double k) { return glm::dvec3(i + 0.1 * j, j, k); });
-    const auto box = withClipSide({}, *mesh, 0, "1.03:2.04");
-    ASSERT_TRUE(box);
-    EXPECT_EQ(box->lo.x, 1.03);
-    EXPECT_EQ(box->hi.x, 2.04);
-    try {
-        withClipSide({}, *mesh, 0, "2");
-        ADD_FAILURE() << "a plane";
-    } catch (const ChoiceError& error) {
-        EXPECT_NE(std::string(error.what()).find("lie in no plane"), std::string::npos);
-    }
-}
-
-TEST(ClipSide, ReadsBackWhatItShows) {
-    const timeseries::Grid grid(std::array{tests::axis(9), tests::axis(9, -4), tests::axis(9)});
-    std::mt19937 random(3);
-    for (int i = 0; i < 200; ++i) {
-        const std::size_t axis = random() % 3;
-        const double from = axis == 1 ? -4 : 0;
-        const int a = static_cast<int>(random() % 9), b = static_cast<int>(random() % 9);
-        const auto box = withClipSide(
-            {}, grid, axis, fmt::format("{}:{}", from + std::min(a, b), from + std::max(a, b)));
-        EXPECT_EQ(withClipSide(box, grid, axis, clipSideText(box, grid, axis)), box);
-    }
 }
 
 TEST(RemoveLayer, TheLastOneLeavesNoneUntilOneIsAdded) {

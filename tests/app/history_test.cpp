@@ -117,6 +117,17 @@ TEST(History, AnEditAfterUndoForgetsWhatWasUndone) {
     EXPECT_TRUE(history.now() == state(1));
 }
 
+TEST(History, KnowsWhatAGestureThatGoesOnBeganFrom) {
+    History history(state(0));
+    EXPECT_TRUE(history.before("drag") == state(0));
+    history.edit(state(1), "drag");
+    history.edit(state(2), "drag");
+    EXPECT_TRUE(history.before("drag") == state(0));
+    for (const char* other : {"", "slider"}) EXPECT_TRUE(history.before(other) == state(2));
+    history.endGesture();
+    EXPECT_TRUE(history.before("drag") == state(2));
+}
+
 TEST(History, SizeAndTickStayThroughUndoAndRedo) {
     History history(state(0));
     history.edit(state(1));

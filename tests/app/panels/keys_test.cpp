@@ -53,6 +53,43 @@ TEST(Keys, NeverReachThePictureFromAField) {
     EXPECT_TRUE(desk.exploration.messages().empty());
 }
 
+// What is typed next goes into it, in place of what it refused.
+TEST(Keys, GoToAFieldOnAfterItRefusedWhatWasEntered) {
+    tests::PanelsDesk desk;
+    Explorer e = desk.exploration.explorer();
+    e.layers = {tests::layer("4:20")};
+    desk.exploration.edit(e);
+    desk.frames(2);
+    const SideLayout side = sideLayout(desk.layout(), 1);
+    desk.click(layerRow(side.layers, side.layers.min.y + kLayersTitle, 1).text.centre());
+    desk.type("abc");
+    desk.press(Key::Enter);
+    EXPECT_EQ(commandsOf(desk, kCommands), 0u);
+    EXPECT_TRUE(ImGui::IsAnyItemActive());
+    desk.press(Key::Enter);
+    desk.frames(3);
+    desk.type("25:30");
+    desk.press(Key::Enter);
+    EXPECT_EQ(desk.exploration.explorer().layers.at(0).ranges,
+              timeseries::RangeSet::parse("25:30"));
+    EXPECT_FALSE(ImGui::IsAnyItemActive());
+    EXPECT_EQ(desk.exploration.explorer().view, e.view);
+    EXPECT_GT(commandsOf(desk, kCommands), 5u) << "the picture's again";
+}
+
+// Who leaves it with a click wants something else.
+TEST(Keys, AreNotKeptByAFieldThatIsLeftWithWhatItRefuses) {
+    tests::PanelsDesk desk;
+    desk.frames(2);
+    const SideLayout side = sideLayout(desk.layout(), 1);
+    desk.click(layerRow(side.layers, side.layers.min.y + kLayersTitle, 1).text.centre());
+    desk.type("abc");
+    desk.click(desk.layout().picture.centre());
+    desk.frames(3);
+    EXPECT_FALSE(ImGui::IsAnyItemActive());
+    EXPECT_GT(commandsOf(desk, kCommands), 5u);
+}
+
 TEST(Keys, NeverReachThePictureWhileFilesOrAPopupStandBeforeIt) {
     std::filesystem::current_path(tests::freshFolder());
     tests::PanelsDesk desk;
