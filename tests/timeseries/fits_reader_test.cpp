@@ -333,6 +333,26 @@ TEST(Fits, EveryImageIsAVariable) {
               ramp<std::int16_t>(24));
 }
 
+// Beside one that is read: of too many axes, cut, or no HDU at all.
+TEST(Fits, AnImageThatCannotBeReadCostsNoOther) {
+    const std::vector<std::string> own{"PCOUNT  = 0", "GCOUNT  = 1"};
+    const auto extension = [&](const std::vector<int>& axes, const std::string& bytes) {
+        return image(16, axes, own, bytes, "XTENSION= 'IMAGE   '");
+    };
+    const std::string many = extension({2, 2, 2, 2, 2}, std::string(64, '\0')),
+                      cut = extension({20, 20, 2000}, ""), noise(4500, '?');
+    for (const auto& [more, why] :
+         {std::pair(many, "three axes of space and one of time at most"),
+          std::pair(cut, "bytes of values"), std::pair(noise, "expected a whole header")}) {
+        const auto reader = openBytes(slab({}) + more);
+        ASSERT_EQ(reader->variables().size(), 1u) << why;
+        EXPECT_EQ(valuesOf<std::int16_t>(*reader), ramp<std::int16_t>(24));
+        ASSERT_EQ(reader->damaged().size(), 1u) << why;
+        EXPECT_EQ(reader->damaged()[0].name, "HDU 2");
+        EXPECT_THAT(reader->damaged()[0].why, HasSubstr(why));
+    }
+}
+
 TEST(Fits, ImagesCompressedByTiles) {
     const auto path = freshFolder() / "packed.fits";
     std::vector<std::int32_t> values(40 * 30 * 20);

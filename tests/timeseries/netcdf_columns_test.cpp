@@ -210,14 +210,14 @@ TEST(NetcdfColumns, WithoutAPlaceAreNotDrawn) {
 // A header may declare any size: nothing is made for more than the file can hold.
 TEST(NetcdfColumns, ThatTheFileCannotHoldPlaceNothing) {
     NetcdfBuilder file("a.nc", NC_NETCDF4);
-    const int j = file.dimension("j", 2500), i = file.dimension("i", 2500);
+    const int j = file.dimension("j", 6000), i = file.dimension("i", 6000);
     for (const auto& [name, units] : {std::pair("lon", "degrees_east"), {"lat", "degrees_north"}})
         file.text(file.variable(name, NC_DOUBLE, {j, i}), "units", units);
     file.variable("v", NC_BYTE, {j, i});  // an eighth of that
     const auto reader = open(file.close());
     const Variable& v = reader->variables()[0];
     EXPECT_FALSE(v.grid->mesh());
-    EXPECT_EQ(v.grid->count(), 6'250'000u);
+    EXPECT_EQ(v.grid->count(), 36'000'000u);
     ASSERT_EQ(v.notes.size(), 1u);
     EXPECT_THAT(v.notes[0], HasSubstr("drawn in index space: of its 2-D coordinates lon and lat, "
                                       "expected values that a file of"));

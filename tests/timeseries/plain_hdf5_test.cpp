@@ -87,6 +87,37 @@ TEST(PlainHdf5, WhatHasItsValuesInOtherFilesHasNoSources) {
     }
 }
 
+// A file has no byte of a chunk that nobody wrote; of what is more than memory, it says why.
+TEST(PlainHdf5, ChunksThatWereNotWrittenAreTheirFill) {
+    const auto sparse = [](hsize_t side) {
+        const auto path = tests::testFolder() / "sparse.h5";
+        const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        const std::array<hsize_t, 3> size{side, side, side}, chunk{16, 16, 16}, one{1, 1, 1};
+        const hid_t space = H5Screate_simple(3, size.data(), nullptr),
+                    point = H5Screate_simple(3, one.data(), nullptr),
+                    made = H5Pcreate(H5P_DATASET_CREATE);
+        const std::uint8_t fill = 3, seven = 7;
+        H5Pset_chunk(made, 3, chunk.data());
+        H5Pset_fill_value(made, H5T_NATIVE_UINT8, &fill);
+        const hid_t data =
+            H5Dcreate2(file, "v", H5T_NATIVE_UINT8, space, H5P_DEFAULT, made, H5P_DEFAULT);
+        H5Sselect_hyperslab(space, H5S_SELECT_SET, chunk.data(), nullptr, one.data(), nullptr);
+        H5Dwrite(data, H5T_NATIVE_UINT8, point, space, H5P_DEFAULT, &seven);
+        for (const hid_t id : {space, point}) H5Sclose(id);
+        H5Pclose(made);
+        H5Dclose(data);
+        H5Fclose(file);
+        return path;
+    };
+    const Field field = open(sparse(300))->read(0, 0);
+    const auto& values = std::get<std::vector<std::uint8_t>>(field.values);
+    EXPECT_EQ(std::ranges::count(values, 3), 300 * 300 * 300 - 1);
+    EXPECT_EQ(values[16 * (1 + 300 * (1 + 300))], 7);
+    EXPECT_THAT(tests::refusalOf(sparse(1600)),
+                testing::AllOf(testing::HasSubstr("1600"),
+                               testing::HasSubstr("expected values that a file of")));
+}
+
 // HDF5 has nought for what it does not find.
 TEST(PlainHdf5, ValuesOfAFileThatIsNotThereAreNotMadeUp) {
     const auto other =

@@ -275,7 +275,7 @@ void FitsFile::Open::expectBytes(const FitsFile& of, const FitsImage& image, dou
                 fmt::format("expected {:.0f} bytes of values, found a file of {}", values, bytes));
 }
 
-std::vector<FitsImage> FitsFile::images() {
+std::vector<FitsImage> FitsFile::images(std::vector<DamagedVariable>& damaged) {
     const std::lock_guard lock(cfitsioMutex());
     std::vector<FitsImage> images;
     for (int hdu = 1;; ++hdu) {
@@ -285,13 +285,19 @@ std::vector<FitsImage> FitsFile::images() {
             fits_clear_errmsg();
             break;
         }
-        if (status != 0)
-            fail(fmt::format("HDU {}", hdu),
-                 fmt::format("expected a whole header, but CFITSIO says: {}", sentenceOf(status)));
         if (hdu > kMostImages)
             fail("images", fmt::format("expected at most {} HDUs, found more", kMostImages));
-        if (type != IMAGE_HDU) continue;
-        if (auto image = open_->image(*this, hdu)) images.push_back(std::move(*image));
+        try {
+            if (status != 0)
+                fail(fmt::format("HDU {}", hdu),
+                     fmt::format("expected a whole header, but CFITSIO says: {}",
+                                 sentenceOf(status)));
+            if (type != IMAGE_HDU) continue;
+            if (auto image = open_->image(*this, hdu)) images.push_back(std::move(*image));
+        } catch (const FileError& flaw) {
+            damaged.push_back({fmt::format("HDU {}", hdu), flaw.what()});
+            if (status != 0) break;  // nobody knows where another begins
+        }
     }
     return images;
 }

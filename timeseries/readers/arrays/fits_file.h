@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "timeseries/grid/field.h"
+#include "timeseries/readers/reader.h"
 
 namespace timeseries {
 
@@ -54,8 +55,8 @@ class FitsFile {
     FitsFile& operator=(const FitsFile&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    // Those of any values. Throws FileError.
-    std::vector<FitsImage> images();
+    // Those of any values that can be read; what cannot is told beside. Throws FileError.
+    std::vector<FitsImage> images(std::vector<DamagedVariable>& damaged);
     // The pixels from `first` to `last` on each axis, counted from 0, inclusive. Throws FileError.
     Values read(const FitsImage& image, const std::vector<std::uint64_t>& first,
                 const std::vector<std::uint64_t>& last);

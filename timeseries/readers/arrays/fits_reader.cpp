@@ -100,13 +100,22 @@ struct Placed {
 class FitsReader final : public Reader {
  public:
     explicit FitsReader(const std::filesystem::path& path) : file_(path) {
-        for (FitsImage& image : file_.images()) add(std::move(image));
+        for (FitsImage& image : file_.images(damaged_)) {
+            const int hdu = image.hdu;
+            try {
+                add(std::move(image));
+            } catch (const FileError& flaw) {
+                damaged_.push_back({fmt::format("HDU {}", hdu), flaw.what()});
+            }
+        }
+        if (variables_.empty() && !damaged_.empty()) throw FileError(damaged_.front().why);
         if (variables_.empty())
             file_.fail("images", "expected one with more than one pixel, found none");
     }
     std::string format() const override { return "FITS"; }
     std::span<const std::filesystem::path> files() const override { return {&file_.path(), 1}; }
     std::span<const Variable> variables() const override { return variables_; }
+    std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
     StepSources sources(std::size_t, std::size_t step) override { return {{file_.path()}, step}; }
 
@@ -120,6 +129,7 @@ class FitsReader final : public Reader {
     FitsFile file_;
     std::vector<Placed> placed_;
     std::vector<Variable> variables_;
+    std::vector<DamagedVariable> damaged_;
 };
 
 std::optional<std::size_t> FitsReader::timeOf(const FitsImage& image,
@@ -169,7 +179,11 @@ void FitsReader::add(FitsImage image) {
         space[a] = a < axes.size() ? spaceAxis(image.axes[axes[a]], kLetters[a], variable.notes)
                                    : Axis{kLetters[a], "index", {0.0}, false};
     if (image.turned)
-        variable.notes.push_back("drawn along its pixels: the axes of the sky are turned to them");
+        variable.notes.push_back(
+            std::ranges::any_of(image.axes, isCelestial)
+                ? "drawn along its pixels: the axes of the sky are turned to them"
+                : "drawn along its pixels, which coordinates count: the axes of "
+                  "the file are turned to them");
     // What CFITSIO calls images that it compresses is no name.
     const bool named = !image.name.empty() && image.name != "COMPRESSED_IMAGE";
     variable.nameless = !named && variables_.empty();

@@ -16,8 +16,15 @@ struct Visit {
     const LookAtHdf5& also;
     std::filesystem::path folder;
     std::set<Source> there;  // known to be
+    std::set<std::filesystem::path> files;
     Hdf5Elsewhere found;
 };
+
+void addFile(const std::filesystem::path& path, Visit& visit) {
+    std::error_code error;
+    const auto bytes = std::filesystem::file_size(path, error);
+    if (!error && visit.files.insert(path).second) visit.found.bytes += static_cast<double>(bytes);
+}
 
 bool opens(const std::filesystem::path& path, const std::string& dataset) {
     std::error_code error;
@@ -39,6 +46,7 @@ bool isThere(const Source& source, Visit& visit) {
     for (const auto& path : {(prefix ? prefix : "") / named, visit.folder / named, named,
                              visit.folder / named.filename()})
         if (opens(path, source.second)) {
+            addFile(path, visit);
             visit.there.insert(source);
             return true;
         }
@@ -77,8 +85,17 @@ void lookAtDataset(hid_t dataset, const char* name, Visit& visit) {
         return;
     }
     const bool isVirtual = H5Pget_layout(created) == H5D_VIRTUAL;
-    if (isVirtual || H5Pget_external_count(created) != 0) visit.found.any = true;
+    const int stores = H5Pget_external_count(created);
+    if (isVirtual || stores != 0) visit.found.any = true;
     if (isVirtual) lookAtSources(created, name, visit);
+    for (int i = 0; i < stores; ++i) {
+        std::string file(4096, '\0');
+        off_t offset = 0;
+        hsize_t bytes = 0;
+        if (H5Pget_external(created, static_cast<unsigned>(i), file.size() - 1, file.data(),
+                            &offset, &bytes) >= 0)
+            addFile(visit.folder / file.c_str(), visit);
+    }
     H5Pclose(created);
 }
 
@@ -105,8 +122,8 @@ herr_t look(hid_t group, const char* name, const H5L_info_t* link, void* data) {
 Hdf5Elsewhere hdf5Elsewhere(const std::filesystem::path& path, const LookAtHdf5& also) {
     if (H5Fis_hdf5(path.c_str()) <= 0) return {};
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (file < 0) return {.any = true, .missing = {}};
-    Visit visit{also, std::filesystem::absolute(path).parent_path(), {}, {}};
+    if (file < 0) return {.any = true, .bytes = 0, .missing = {}};
+    Visit visit{also, std::filesystem::absolute(path).parent_path(), {}, {}, {}};
     if (H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, look, &visit) < 0) visit.found.any = true;
     H5Fclose(file);
     return std::move(visit.found);

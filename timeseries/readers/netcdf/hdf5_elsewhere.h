@@ -12,6 +12,7 @@ namespace timeseries {
 
 struct Hdf5Elsewhere {
     bool any = false;  // also where that cannot be told
+    double bytes = 0;  // of the files that virtual datasets and external storage lie in
     // Of virtual datasets ("v", in a group "g/v") that have values of a dataset which is not
     // there: its file, and its name. HDF5 reads a fill value instead, and says nothing.
     std::map<std::string, std::string> missing;

@@ -177,8 +177,8 @@ FileContents contentsOf(const CfFile& file) {
     if (!contents.damaged.empty()) throw FileError(contents.damaged.front().why);
     if (header.format == kPlainHdf5)
         throw FileError(notReadSentence(
-            file.path(),
-            "an HDF5 file that no NetCDF wrote, without an array of three dimensions"));
+            file.path(), "an HDF5 file that no NetCDF wrote, without an array of three dimensions" +
+                             passedOver));
     file.fail("", "expected a numeric variable with at least two spatial dimensions, found none" +
                       passedOver);
 }

@@ -31,6 +31,7 @@ namespace {
 constexpr std::chrono::seconds kMaxHeaderTime{10};  // that of 8000 variables takes one
 constexpr std::size_t kMaxStrings = 1'000'000;      // hours of a century
 constexpr std::size_t kMaxStringBytes = 256;        // no date is as long
+constexpr double kFreeBytes = 1 << 28;  // of HDF5, which keeps no chunk that nobody wrote
 
 // Held during every call of the library. HDF5 prints its errors unless told not to, and keeps that
 // setting per thread: netCDF sets it on the first thread alone.
@@ -88,7 +89,10 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& path, Header header) : CfFil
     char first = 0;
     if (error || !file.get(first)) fail("", "expected a netCDF file, but it cannot be read");
     file.seekg(0);
-    if (first == 'C') checkClassicLayout(path, file, fileBytes_);
+    if (first == 'C')
+        checkClassicLayout(path, file, fileBytes_);
+    else
+        freeBytes_ = kFreeBytes;
     file.close();
 
     const LibraryLock lock;
@@ -162,7 +166,8 @@ std::string NetcdfFile::tooLarge(const NcVariable& variable, std::uint64_t point
 
 std::string NetcdfFile::tooLarge(ValueType type, std::uint64_t points,
                                  std::uint64_t chunkBytes) const {
-    const double limit = kMaxInflated * static_cast<double>(fileBytes_) + 1048576.0;
+    const double limit =
+        kMaxInflated * (static_cast<double>(fileBytes_) + elsewhere_.bytes) + freeBytes_;
     const double bytes = static_cast<double>(points) * static_cast<double>(typeBytes(type));
     if (points > kMaxPoints) return fmt::format("expected at most 2^32 points, found {}", points);
     if (std::max(bytes, static_cast<double>(chunkBytes)) > limit)

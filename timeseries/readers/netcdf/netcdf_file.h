@@ -30,7 +30,8 @@ class NetcdfFile final : public CfFile {
     static std::vector<bool> triedTogether(std::span<const std::filesystem::path> paths);
 
     // A compressed file unpacks to at most about 1032 times its bytes (the limit of deflate; its
-    // format, RFC 1951, spends at least two bits on 258 bytes).
+    // format, RFC 1951, spends at least two bits on 258 bytes). Of HDF5 some may be in other files,
+    // or not written.
     std::string tooLarge(const NcVariable& variable, std::uint64_t points) const override;
     // The same of values of a type for which the file has no array.
     std::string tooLarge(ValueType type, std::uint64_t points) const {
@@ -68,6 +69,7 @@ class NetcdfFile final : public CfFile {
     void check(int status, std::string_view place, std::string_view expected) const;
 
     std::uint64_t fileBytes_ = 0;
+    double freeBytes_ = 1 << 20;  // of values that the file need not have
     int id_ = -1;
     Hdf5Elsewhere elsewhere_;
     Hdf5Enums enums_;
