@@ -57,16 +57,17 @@ void ViewPage::draw(PanelContext& context, const Rect& at) {
                                : *chosen == 1 ? Stereo::SideBySide
                                               : Stereo::TopBottom;
         });
-    constexpr std::array kLegends = {"Shown", "Hidden"};
-    if (const auto chosen =
-            segmented(context.theme, "legend", form.row("Legend"), kLegends, e.legend ? 0 : 1))
-        edit(context, {}, [&](Explorer& next) { next.legend = *chosen == 0; });
     map(context, form);
     form.space(6);
     clip(context, form);
     form.space(6);
     scale(context, form);
     axes(context, form);
+    form.space(6);
+    constexpr std::array kLegends = {"Shown", "Hidden"};
+    if (const auto chosen =
+            segmented(context.theme, "legend", form.row("Legend"), kLegends, e.legend ? 0 : 1))
+        edit(context, {}, [&](Explorer& next) { next.legend = *chosen == 0; });
 }
 
 // Where places are longitudes and latitudes, or once were.

@@ -6,54 +6,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
-#include "tests/support/array_builder.h"
+#include "tests/support/fits_builder.h"
 #include "tests/support/shared_data.h"
 
 namespace timeseries {
 namespace {
 
 using namespace tests;
+using namespace tests::fits;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-// Cards of 80 letters, and END, to whole blocks of 2880.
-std::string cards(const std::vector<std::string>& lines) {
-    std::string text;
-    for (const std::string& line : lines) text += fmt::format("{:80}", line);
-    text += fmt::format("{:80}", "END");
-    text.resize((text.size() + 2879) / 2880 * 2880, ' ');
-    return text;
-}
-
-std::string padded(std::string bytes) {
-    bytes.resize((bytes.size() + 2879) / 2880 * 2880, '\0');
-    return bytes;
-}
-
-std::vector<std::string> sizes(int bitpix, const std::vector<int>& axes) {
-    std::vector<std::string> lines{fmt::format("BITPIX  = {:20}", bitpix),
-                                   fmt::format("NAXIS   = {:20}", axes.size())};
-    for (std::size_t i = 0; i < axes.size(); ++i)
-        lines.push_back(fmt::format("NAXIS{}  = {:20}", i + 1, axes[i]));
-    return lines;
-}
-
-std::string image(int bitpix, const std::vector<int>& axes, std::vector<std::string> more,
-                  const std::string& bytes,
-                  const std::string& first = "SIMPLE  =                    T") {
-    std::vector<std::string> lines = sizes(bitpix, axes);
-    lines.insert(lines.begin(), first);
-    lines.insert(lines.end(), more.begin(), more.end());
-    return cards(lines) + padded(bytes);
-}
-
-// 2 x 3 x 4 pixels, 0 to 23.
-std::string slab(const std::vector<std::string>& more) {
-    return image(16, {2, 3, 4}, more, bytesOf(ramp<std::int16_t>(24), std::endian::big));
-}
 
 TEST(Fits, KeywordsPlaceACubeOfTheSky) {
     const auto reader =
@@ -333,26 +297,6 @@ TEST(Fits, EveryImageIsAVariable) {
               ramp<std::int16_t>(24));
 }
 
-// Beside one that is read: of too many axes, cut, or no HDU at all.
-TEST(Fits, AnImageThatCannotBeReadCostsNoOther) {
-    const std::vector<std::string> own{"PCOUNT  = 0", "GCOUNT  = 1"};
-    const auto extension = [&](const std::vector<int>& axes, const std::string& bytes) {
-        return image(16, axes, own, bytes, "XTENSION= 'IMAGE   '");
-    };
-    const std::string many = extension({2, 2, 2, 2, 2}, std::string(64, '\0')),
-                      cut = extension({20, 20, 2000}, ""), noise(4500, '?');
-    for (const auto& [more, why] :
-         {std::pair(many, "three axes of space and one of time at most"),
-          std::pair(cut, "bytes of values"), std::pair(noise, "expected a whole header")}) {
-        const auto reader = openBytes(slab({}) + more);
-        ASSERT_EQ(reader->variables().size(), 1u) << why;
-        EXPECT_EQ(valuesOf<std::int16_t>(*reader), ramp<std::int16_t>(24));
-        ASSERT_EQ(reader->damaged().size(), 1u) << why;
-        EXPECT_EQ(reader->damaged()[0].name, "HDU 2");
-        EXPECT_THAT(reader->damaged()[0].why, HasSubstr(why));
-    }
-}
-
 TEST(Fits, ImagesCompressedByTiles) {
     const auto path = freshFolder() / "packed.fits";
     std::vector<std::int32_t> values(40 * 30 * 20);
@@ -371,31 +315,6 @@ TEST(Fits, ImagesCompressedByTiles) {
         ASSERT_EQ(status, 0);
         EXPECT_LT(std::filesystem::file_size(path), values.size() * 4 / 2);
         EXPECT_EQ(valuesOf<std::int32_t>(*open(path)), values);
-    }
-}
-
-TEST(Fits, WhatCannotBeReadIsNamed) {
-    const auto path = freshFolder() / "file.fits";
-    const auto refused = [&](const std::string& bytes) {
-        writeBytes(path, bytes);
-        return refusal(path);
-    };
-    const std::string whole = slab({});
-    EXPECT_THAT(refused(whole.substr(0, 1000)), HasSubstr("expected"));
-    EXPECT_THAT(refused(whole.substr(0, 2880)), HasSubstr("expected"));
-    EXPECT_THAT(refused(image(16, {20000, 20000, 20000}, {}, "")), HasSubstr("bytes of values"));
-    EXPECT_THAT(refused(whole.substr(0, 2880 + 40)), HasSubstr("expected 48 bytes of values"));
-    EXPECT_THAT(refused(image(16, {1, 1, 1, 1, 1, 1, 1, 2, 2, 2}, {}, std::string(16, '\0'))),
-                HasSubstr("expected"));
-    EXPECT_THAT(refused(image(16, {}, {}, "")), HasSubstr("more than one pixel, found none"));
-    EXPECT_THAT(
-        refused(image(16, {2, 2, 2, 2, 2}, {}, bytesOf(ramp<std::int16_t>(32), std::endian::big))),
-        HasSubstr("three axes of space and one of time at most, found 5"));
-    std::mt19937 random(17);
-    for (int trial = 0; trial < 2000; ++trial) {
-        std::string damaged = slab({"CTYPE1  = 'RA---TAN'", "CDELT1  = 1.0", "BLANK   = 3"});
-        for (int i = 0; i < 3; ++i) damaged[80 + random() % 720] = static_cast<char>(random());
-        refused(damaged);  // a sentence, if it is one
     }
 }
 
