@@ -22,14 +22,14 @@ using tests::series;
 using tests::timesOf;
 using Path = std::filesystem::path;
 
-struct Names {
+struct NamesInFile {
     std::string times = "Times", calendar = "calendar";
 };
 
 // As WRF writes them: v(Time, y = 2, x = 2), every value of step t being first + t, and the rows as
 // characters of `Times`.
 Path dated(const std::string& name, const std::vector<std::string>& rows, float first = 0,
-           const std::string& calendar = "", int mode = NC_NETCDF4, const Names& names = {}) {
+           const std::string& calendar = "", int mode = NC_NETCDF4, const NamesInFile& names = {}) {
     NetcdfBuilder file(name, mode);
     const int t = file.dimension("Time", rows.size()),
               length = file.dimension("DateStrLen", rows[0].size()), y = file.dimension("y", 2),
@@ -82,7 +82,7 @@ TEST(NetcdfDateTexts, DatesInTextOfMpasAreTimes) {
     const auto padded = [](std::string date) { return date + std::string(64 - date.size(), ' '); };
     const std::vector<std::string> rows{padded("0004-02-28_00:00:00"),
                                         padded("0004-03-01_00:00:00")};
-    const Names names{"xtime", "config_calendar_type"};
+    const NamesInFile names{"xtime", "config_calendar_type"};
     for (const auto& [calendar, days] :
          {std::pair("gregorian_noleap", 1), std::pair("360day", 3), std::pair("gregorian", 2)}) {
         const auto reader = open(dated("a.nc", rows, 0, calendar, 0, names));
