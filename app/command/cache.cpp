@@ -28,8 +28,8 @@ std::string originOf(const std::string& about) {
 
 void list(const StepStore& store) {
     std::uint64_t bytes = 0;
-    const std::vector<StepStore::Entry> entries = store.list();
-    for (const StepStore::Entry& entry : entries) {
+    const std::vector<timeseries::StoredFile> entries = store.list();
+    for (const timeseries::StoredFile& entry : entries) {
         bytes += entry.bytes;
         const std::string about = StepStore::aboutOf(entry.path);
         say("{:>12}  {:%Y-%m-%d %H:%M}  {}\n", megabytesText(entry.bytes),

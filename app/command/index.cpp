@@ -56,17 +56,16 @@ int index(const IndexOptions& options) {
 #endif
     }
     const auto store = indexStoreOf(options);
-    std::vector<IndexTask> tasks = indexTasksOf(options);
+    const std::vector<IndexTask> tasks = indexTasksOf(options);
     const auto jobs = static_cast<unsigned>(std::min<std::size_t>(options.jobs, tasks.size()));
     IndexedSteps done;
     {
-        IndexWork all(options, store, std::move(tasks));  // with a line of its own on a terminal
-        if (jobs > 1)                                     // each sorts on its share of the cores
+        IndexWork all(options, store, tasks, tasks);  // with a line of its own on a terminal
+        if (jobs > 1)                                 // each sorts on its share of the cores
             timeseries::threadLimit = std::max(1u, timeseries::sharingThreads() / jobs);
         timeseries::sharing(jobs, [&](unsigned) { all.work(); });
         done = all.done();
     }
-    done.lost = store->lost();
     return tellIndexed(done, *store);
 }
 

@@ -84,13 +84,19 @@ class TogetherWork {
         bool before = false;
         ranks_.agreed([&] {
             if (!ranks_.isFirst()) return;
+            expectThere(*origin);
             stamp = store_->stampOf(*origin);
             before = store_->find(*origin) != nullptr;
         });
         if (ranks_.sum(before) > 0) return StepMaker::Kept::Before;
         if (ranks_.sum(stamp.has_value()) == 0) return StepMaker::Kept::Changed;
-        const bool written = write(task, *origin, stamp, firstOpening());
-        return ranks_.sum(written) > 0 ? StepMaker::Kept::Written : StepMaker::Kept::Changed;
+        if (isFull_) return StepMaker::Kept::NoRoom;
+        const auto wrote = write(task, *origin, stamp, firstOpening());
+        if (ranks_.sum(wrote == StepStore::Wrote::All) > 0) return StepMaker::Kept::Written;
+        isFull_ = ranks_.sum(wrote == StepStore::Wrote::NoRoom) > 0;
+        if (isFull_) return StepMaker::Kept::NoRoom;
+        ranks_.agreed([&] { expectThere(*origin); });
+        return StepMaker::Kept::Changed;
     }
 
  private:
@@ -103,9 +109,9 @@ class TogetherWork {
     }
 
     // The first rank has the file, if its store wants one; the others write where it tells them.
-    bool write(const IndexTask& task, const StepOrigin& origin,
-               const std::optional<OriginStamp>& stamp, Clock::time_point opened) {
-        bool written = false;
+    StepStore::Wrote write(const IndexTask& task, const StepOrigin& origin,
+                           const std::optional<OriginStamp>& stamp, Clock::time_point opened) {
+        auto wrote = StepStore::Wrote::Nothing;
         ranks_.agreed([&] {
             if (!ranks_.isFirst()) {
                 if (ranks_.fromFirst("") == "go on") writePart(task, "", nullptr);
@@ -114,7 +120,7 @@ class TogetherWork {
             bool told = false;
             std::exception_ptr failure;
             try {
-                written = store_->write(origin, *stamp, opened, [&](timeseries::WholeFile& file) {
+                wrote = store_->write(origin, *stamp, opened, [&](timeseries::WholeFile& file) {
                     told = true;
                     ranks_.fromFirst("go on");
                     writePart(task, stamp->text, &file);
@@ -126,7 +132,7 @@ class TogetherWork {
             if (!told) ranks_.fromFirst("no");
             if (failure) std::rethrow_exception(failure);
         });
-        return written;
+        return wrote;
     }
 
     void writePart(const IndexTask& task, const std::string& about, timeseries::WholeFile* file) {
@@ -157,7 +163,24 @@ class TogetherWork {
     const IndexOptions& options_;
     const std::shared_ptr<StepStore> store_;
     std::optional<OpenDataset> dataset_;
+    bool isFull_ = false;  // the store, on all ranks
 };
+
+// What failed on any rank, on each of them.
+void addErrorsOfAll(const Ranks& ranks, IndexedSteps& done) {
+    std::string mine;  // of each "steps sentence" and a 0
+    for (const auto& [why, steps] : done.errors) mine += fmt::format("{} {}", steps, why) + '\0';
+    const std::vector<char> all = ranks.gather<char>(mine);
+    done.failed = 0;
+    done.errors.clear();
+    for (auto from = all.begin(); from != all.end();) {
+        const auto end = std::find(from, all.end(), '\0');
+        const std::string error(from, end);
+        const std::size_t space = error.find(' ');
+        done.fail(error.substr(space + 1), std::stoull(error.substr(0, space)));
+        from = end + 1;
+    }
+}
 
 // By each rank for itself those that it has memory for, as many for all of them; the rest together.
 IndexedSteps indexAll(const Ranks& ranks, const IndexOptions& options,
@@ -182,29 +205,26 @@ IndexedSteps indexAll(const Ranks& ranks, const IndexOptions& options,
     }
     IndexedSteps done;
     ranks.agreed([&] {
-        IndexWork own(options, store, std::move(alone));
+        IndexWork own(options, store, std::move(alone), tasks);
         own.work();
         done = own.done();
     });
     TogetherWork together(ranks, options, store);
     for (const IndexTask& task : shared) {
-        std::optional<StepMaker::Kept> kept;
         try {
-            kept = together.keep(task);
-        } catch (const timeseries::RanksError& error) {
-            if (ranks.isFirst()) sayTo(stderr, "isochron: {}\n", error.what());
+            const StepMaker::Kept kept = together.keep(task);
+            if (ranks.isFirst()) ++done.of(kept);
+        } catch (const timeseries::RanksError& error) {  // all have it
+            if (ranks.isFirst()) done.fail(error.what());
         }
-        if (!ranks.isFirst()) continue;
-        ++(kept ? done.of(*kept) : done.failed);
     }
-    std::array<std::uint64_t, StepMaker::kKept + 2> sums{};
+    std::array<std::uint64_t, StepMaker::kKept> sums{};
     std::ranges::copy(done.kept, sums.begin());
-    sums[StepMaker::kKept] = done.failed;
-    sums[StepMaker::kKept + 1] = store->lost();
     ranks.sum(sums);
     std::copy_n(sums.begin(), StepMaker::kKept, done.kept.begin());
-    done.failed = sums[StepMaker::kKept];
-    done.lost = sums[StepMaker::kKept + 1];
+    addErrorsOfAll(ranks, done);
+    const std::uint64_t refused = store->room().refused();
+    done.refusedBytes = std::ranges::max(ranks.gather<std::uint64_t>({&refused, 1}));
     return done;
 }
 
@@ -220,7 +240,7 @@ int indexOf(const Ranks& ranks, const IndexOptions& options) {
     });
     const IndexedSteps done = indexAll(ranks, options, store, std::move(tasks));
     if (ranks.isFirst()) return tellIndexed(done, *store);
-    return done.failed + done.lost == 0 ? 0 : 1;
+    return done.failed + done.of(StepMaker::Kept::NoRoom) == 0 ? 0 : 1;
 }
 
 }  // namespace

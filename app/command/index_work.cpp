@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <filesystem>
 #include <span>
 #include <thread>
@@ -31,6 +32,30 @@ void waitForSettled(std::span<const fs::path> files) {
         if (changed && *changed <= now) until = std::max(until, *changed + StepStore::kSettled);
     }
     std::this_thread::sleep_until(until + std::chrono::milliseconds(10));
+}
+
+// Where these steps are, or would be, in the store; of what cannot be opened none.
+std::vector<fs::path> pathsOf(const IndexOptions& options, std::span<const IndexTask> tasks,
+                              const StepStore& store) {
+    std::vector<fs::path> paths;
+    try {
+        std::optional<OpenDataset> dataset;
+        for (const IndexTask& task : tasks) {
+            if (!dataset || dataset->variable.name != task.variable)
+                dataset = openDataset(options.files, task.variable);
+            const auto origin =
+                timeseries::originOf(*dataset->reader, dataset->variableIndex, task.step);
+            if (origin) paths.push_back(store.pathOf(*origin));
+        }
+    } catch (const FileError&) {  // told where it is sorted
+    }
+    return paths;
+}
+
+void tellErrors(const IndexedSteps& done) {
+    for (const auto& [why, steps] : done.errors)
+        sayTo(stderr, "isochron: {}{}\n", why,
+              steps == 1 ? "" : fmt::format(" ({} steps)", withCommas(steps)));
 }
 
 }  // namespace
@@ -62,19 +87,39 @@ std::shared_ptr<StepStore> indexStoreOf(const IndexOptions& options) {
 }
 
 IndexWork::IndexWork(const IndexOptions& options, std::shared_ptr<StepStore> store,
-                     std::vector<IndexTask> tasks)
+                     std::vector<IndexTask> tasks, std::span<const IndexTask> all)
     : options_(options),
       store_(std::move(store)),
       tasks_(std::move(tasks)),
-      progress_("step", tasks_.size()) {}
+      progress_("step", tasks_.size()) {
+    store_->room().hold([options, paths = std::vector(all.begin(), all.end()),
+                         store = store_.get()] { return pathsOf(options, paths, *store); });
+}
 
-void IndexWork::finish(std::optional<StepMaker::Kept> kept) {
+IndexWork::~IndexWork() {
+    if (std::uncaught_exceptions() > 0) tellErrors(done_);
+}
+
+void IndexedSteps::fail(const std::string& why, std::size_t steps) {
+    failed += steps;
+    const auto told = std::ranges::find(errors, why, &std::pair<std::string, std::size_t>::first);
+    if (told == errors.end())
+        errors.emplace_back(why, steps);
+    else
+        told->second += steps;
+}
+
+void IndexWork::finish(std::optional<StepMaker::Kept> kept, const std::string& why) {
     const std::lock_guard lock(mutex_);
-    ++(kept ? done_.of(*kept) : done_.failed);
+    if (kept)
+        ++done_.of(*kept);
+    else
+        done_.fail(why);
     const auto spent = std::chrono::duration<double>(Clock::now() - begin_).count();
     const std::size_t finished = done_.all();
     // The others take no time.
-    const std::size_t slow = finished - done_.failed - done_.of(StepMaker::Kept::Before);
+    const std::size_t slow = finished - done_.failed - done_.of(StepMaker::Kept::Before) -
+                             done_.of(StepMaker::Kept::NoRoom);
     if (slow == 0 || finished == tasks_.size()) return;
     const double left =
         spent / static_cast<double>(slow) * static_cast<double>(tasks_.size() - finished);
@@ -84,8 +129,7 @@ void IndexWork::finish(std::optional<StepMaker::Kept> kept) {
 void IndexWork::work() {
     std::unique_ptr<StepMaker> maker;
     std::string variable;
-    // Where the store has begun to lose what it was given there is no end.
-    for (std::size_t i; store_->lost() == 0 && (i = next_++) < tasks_.size();) {
+    for (std::size_t i; (i = next_++) < tasks_.size();) {
         const IndexTask& task = tasks_[i];
         if (!maker || variable != task.variable) {
             OpenDataset dataset = openDataset(options_.files, task.variable);
@@ -95,36 +139,62 @@ void IndexWork::work() {
                                                 timeseries::StepStores{{store_}, store_, 1});
         }
         std::optional<StepMaker::Kept> kept;
+        std::string why;
         try {
-            kept = maker->keep(task.step);
+            // The others are about as large: to sort them, too, would be in vain.
+            kept = isFull_ ? maker->keepNoMore(task.step) : maker->keep(task.step);
+            if (kept == StepMaker::Kept::NoRoom) isFull_ = true;
         } catch (const FileError& error) {  // the others are no worse for it
-            sayTo(stderr, "isochron: {}\n", error.what());
+            why = error.what();
         }
-        finish(kept);
+        finish(kept, why);
     }
 }
 
-int tellIndexed(const IndexedSteps& done, const StepStore& store) {
+namespace {
+
+void tellNoRoom(const IndexedSteps& done, StepStore& store) {
+    const timeseries::StoreRoom::Held held = store.room().held();
+    const std::uint64_t each = std::max({done.refusedBytes, store.room().refused(),
+                                         held.bytes / std::max<std::uint64_t>(held.files, 1)});
+    const std::size_t count = done.of(StepMaker::Kept::NoRoom);
+    sayTo(
+        stderr,
+        "isochron: {} takes {} (a tenth of its disk, 64 GiB at most): {} of these steps did not "
+        "fit, a budget of about {} would hold all of them; --cache names another folder, --beside "
+        "writes beside the data, with no such limit\n",
+        store.folder().string(), megabytesText(store.budget()), withCommas(count),
+        megabytesText(held.bytes + count * each));
+}
+
+}  // namespace
+
+int tellIndexed(IndexedSteps done, StepStore& store) {
+    // What other programs, or processes of this one, wrote at the same time.
+    for (std::size_t gone = store.room().settle(); gone > 0; --gone) {
+        const auto from = done.of(StepMaker::Kept::Written) > 0 ? StepMaker::Kept::Written
+                                                                : StepMaker::Kept::Before;
+        --done.of(from);
+        ++done.of(StepMaker::Kept::NoRoom);
+    }
+    tellErrors(done);
     std::uint64_t bytes = 0;
-    for (const StepStore::Entry& entry : store.list()) bytes += entry.bytes;
+    for (const timeseries::StoredFile& entry : timeseries::storedFiles(store.folder()))
+        bytes += entry.bytes;
     std::string others;
     for (const auto& [how, what] :
          {std::pair(StepMaker::Kept::Moves, "whose points move"),
           {StepMaker::Kept::Empty, "without a value"},
           {StepMaker::Kept::Changed, "whose files changed meanwhile, or are of the future"},
-          {StepMaker::Kept::Unknown, "of a format whose steps are sorted each time"}})
+          {StepMaker::Kept::Unknown, "of a format whose steps are sorted each time"},
+          {StepMaker::Kept::NoRoom, "for want of room"}})
         if (const std::size_t count = done.of(how); count > 0)
             others += fmt::format("{} {} {}", others.empty() ? "; not kept:" : ",", count, what);
     say("{} step{}: {} written, {} there before{}; {} holds {}\n", done.all(),
         done.all() == 1 ? "" : "s", done.of(StepMaker::Kept::Written),
         done.of(StepMaker::Kept::Before), others, store.folder().string(), megabytesText(bytes));
-    if (done.lost > 0)
-        sayTo(stderr,
-              "isochron: {} has no room for all of them: it takes {} (a tenth of its disk, 64 GiB "
-              "at most), for which {} of these steps had to go; --cache names another folder, "
-              "--beside writes beside the data, with no such limit\n",
-              store.folder().string(), megabytesText(store.budget()), withCommas(done.lost));
-    return done.failed + done.lost == 0 ? 0 : 1;
+    if (done.of(StepMaker::Kept::NoRoom) > 0) tellNoRoom(done, store);
+    return done.failed + done.of(StepMaker::Kept::NoRoom) == 0 ? 0 : 1;
 }
 
 }  // namespace app

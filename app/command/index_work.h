@@ -9,7 +9,9 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/choices/options.h"
@@ -33,7 +35,9 @@ std::shared_ptr<timeseries::StepStore> indexStoreOf(const IndexOptions& options)
 struct IndexedSteps {
     std::array<std::size_t, timeseries::StepMaker::kKept> kept{};  // by StepMaker::Kept
     std::size_t failed = 0;
-    std::size_t lost = 0;  // of those that were there or written
+    std::vector<std::pair<std::string, std::size_t>> errors;  // each once, with how many it is of
+    void fail(const std::string& why, std::size_t steps = 1);
+    std::uint64_t refusedBytes = 0;  // of the largest that there was no room for
     std::size_t& of(timeseries::StepMaker::Kept how) { return kept[static_cast<std::size_t>(how)]; }
     std::size_t of(timeseries::StepMaker::Kept how) const {
         return kept[static_cast<std::size_t>(how)];
@@ -44,31 +48,36 @@ struct IndexedSteps {
 // Shared by the threads that do it.
 class IndexWork {
  public:
+    // `all` of what is asked for, whoever sorts it: none of them makes room for another.
     IndexWork(const IndexOptions& options, std::shared_ptr<timeseries::StepStore> store,
-              std::vector<IndexTask> tasks);
+              std::vector<IndexTask> tasks, std::span<const IndexTask> all);
+    IndexWork(const IndexWork&) = delete;
+    IndexWork& operator=(const IndexWork&) = delete;
+    ~IndexWork();  // tells what went wrong before work() threw
     // Opens the files for itself and takes tasks until none is left; called from several threads.
-    // What cannot be read is told. Throws FileError where nothing can be opened, StepFileError
-    // where nothing can be written.
+    // What cannot be read is told with the rest. Throws FileError where nothing can be opened,
+    // StepFileError where nothing can be written.
     void work();
     const IndexedSteps& done() const { return done_; }
 
  private:
-    // What became of a step; none where it cannot be read.
-    void finish(std::optional<timeseries::StepMaker::Kept> kept);
+    // What became of a step: how it is kept, or why it cannot be read.
+    void finish(std::optional<timeseries::StepMaker::Kept> kept, const std::string& why);
 
     using Clock = std::chrono::steady_clock;
     const IndexOptions& options_;
     const std::shared_ptr<timeseries::StepStore> store_;
     const std::vector<IndexTask> tasks_;
     std::atomic<std::size_t> next_{0};
+    std::atomic<bool> isFull_ = false;  // the store
     std::mutex mutex_;
     IndexedSteps done_;  // guarded by mutex_, as what follows
     Progress progress_;
     const Clock::time_point begin_ = Clock::now();
 };
 
-// In a line, on stdout; returns the exit code.
-int tellIndexed(const IndexedSteps& done, const timeseries::StepStore& store);
+// In a line, on stdout, when nobody writes any more; returns the exit code.
+int tellIndexed(IndexedSteps done, timeseries::StepStore& store);
 
 // `index` as one of the processes that mpirun started.
 int indexByRanks(const IndexOptions& options);

@@ -164,7 +164,7 @@ Indexed indexedOf(timeseries::Reader& reader, std::size_t variable,
 
 // Where nothing is kept, no step is looked for.
 timeseries::StepStores filled(timeseries::StepStores stores) {
-    std::erase_if(stores.read, [](const auto& store) { return store->list().empty(); });
+    std::erase_if(stores.read, [](const auto& store) { return store->isEmpty(); });
     return stores;
 }
 

@@ -69,6 +69,31 @@ TEST_F(StepStores, AFolderThatCannotBeIsToldOnceAndTheProgramGoesOn) {
     expectField(*again, 100);
 }
 
+TEST_F(StepStores, AFolderThatCannotBeListedIsNotEmpty) {
+    (void)maker()->keep(0);
+    const fs::path steps = folder / "steps";
+    if (::geteuid() != 0) {  // who may read anything
+        fs::permissions(steps, fs::perms::owner_write | fs::perms::owner_exec);
+        const auto cannot = testing::ThrowsMessage<StepFileError>(HasSubstr("cannot be listed"));
+        EXPECT_THAT([&] { (void)store->list(); }, cannot);
+        EXPECT_THAT([&] { (void)store->clear(); }, cannot);
+        EXPECT_TRUE(store->isEmpty());
+        fs::permissions(steps, fs::perms::owner_all);
+    }
+    EXPECT_FALSE(store->isEmpty());
+    EXPECT_GT(store->clear(), 0u);
+    fs::remove(steps);
+    EXPECT_EQ(store->list().size(), 0u);
+    fs::create_symlink(folder / "nowhere", steps);
+    EXPECT_THAT([&] { (void)store->list(); },
+                testing::ThrowsMessage<StepFileError>(HasSubstr("leads nowhere")));
+    fs::remove(steps);
+    tests::writeBytes(steps, "a file");
+    EXPECT_THAT([&] { (void)store->clear(); },
+                testing::ThrowsMessage<StepFileError>(HasSubstr("expected a folder")));
+    EXPECT_TRUE(store->isEmpty());
+}
+
 TEST_F(StepStores, AFullDiskLeavesNothing) {
     // RLIMIT_FSIZE fails a write as a full disk does, at every length.
     (void)maker()->keep(0);
@@ -116,7 +141,10 @@ TEST_F(StepStores, AWriterThatIsKilledLeavesTheOldOrTheNew) {
         expectField(*maker()->make(0), m);
         EXPECT_THAT(store->takeNotes(), IsEmpty());
     }
-    (void)maker()->keep(0);
+    const auto next = std::make_shared<StepStore>(folder / "steps", StoreKind::Cache,
+                                                  StepStore::kNoBudget, kAtOnce);
+    nrrdOf(file, 10);
+    (void)maker(next)->keep(0);
     EXPECT_EQ(files(), 1u);
 }
 

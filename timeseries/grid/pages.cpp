@@ -13,6 +13,12 @@ namespace {
 
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
 constexpr std::size_t kLargePagesWorthAThread = 8;
+// What is sparsely filled, and less than this, is not worth a mapping of its own.
+constexpr std::size_t kWorthAMapping = std::size_t{128} << 10;
+
+bool isMapped(std::size_t bytes, Filled filled) {
+    return filled == Filled::Sparsely && bytes >= kWorthAMapping;
+}
 
 // Whether so much is free without taking it from what the system keeps of files: else it would
 // first move memory about to make large pages, for seconds at 512^3 (measured).
@@ -24,7 +30,7 @@ bool muchIsFree(std::size_t bytes) {
 }  // namespace
 
 void* takePages(std::size_t bytes, Filled filled) {
-    if (filled == Filled::Sparsely) {
+    if (isMapped(bytes, filled)) {
         void* const at = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
                               MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
         if (at == MAP_FAILED) throw std::bad_alloc();
@@ -54,7 +60,7 @@ void populate(void* at, std::size_t bytes) {
 }
 
 void givePages(void* at, std::size_t bytes, Filled filled) noexcept {
-    if (filled == Filled::Sparsely)
+    if (isMapped(bytes, filled))
         munmap(at, bytes);
     else
         std::free(at);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -154,8 +155,9 @@ void StepFile::readSummary(const StepHeader& header) {
     count = load<std::uint64_t>(piece.bytes().data());
     const std::span<const std::byte> rest = piece.bytes().subspan(sizeof count);
     if (count > rest.size() / sizeof(double)) damaged("its summary ends early");
-    for (std::size_t i = 0; i < count; ++i)
-        quantiles_.push_back(load<double>(rest.data() + i * sizeof(double)));
+    quantiles_.resize(count);
+    std::ranges::copy(rest.first(count * sizeof(double)),
+                      std::as_writable_bytes(std::span(quantiles_)).begin());
     const auto text = rest.subspan(count * sizeof(double));
     about_.assign(reinterpret_cast<const char*>(text.data()), text.size());
 }

@@ -10,7 +10,8 @@ namespace {
 
 // What a step on disk was made of, read by a reader of its own: whoever asks has no other.
 struct Reopened {
-    std::vector<std::filesystem::path> files;
+    // Of the whole series: thousands, which its steps share.
+    std::shared_ptr<const std::vector<std::filesystem::path>> files;
     std::string variable;
     std::size_t step;  // of the series
     std::shared_ptr<StepStore> store;
@@ -24,7 +25,7 @@ struct Reopened {
     // None, should it have changed before it was read, or while it was.
     std::optional<Field> read() const try {
         if (!isStill()) return std::nullopt;
-        const auto reader = openReader(files);
+        const auto reader = openReader(*files);
         const auto variables = reader->variables();
         const auto found = std::ranges::find(variables, variable, &Variable::name);
         if (found == variables.end() || step >= found->time->points.size()) return std::nullopt;
@@ -43,6 +44,8 @@ struct Reopened {
 StepMaker::StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
                      StepStores stores, Holds holds, RangeSet asked)
     : reader_(std::move(reader)),
+      files_(std::make_shared<const std::vector<std::filesystem::path>>(reader_->files().begin(),
+                                                                        reader_->files().end())),
       opened_(reader_->files()),
       variable_(variable),
       kept_(std::move(kept)),
@@ -76,22 +79,27 @@ std::optional<StepOrigin> originOf(Reader& reader, std::size_t variable, std::si
     return StepOrigin{std::move(sources.files), sources.step, of.name, of.storedAs};
 }
 
+void expectThere(const StepOrigin& origin) {
+    for (const std::filesystem::path& file : origin.files) {
+        std::error_code failed;
+        if (!std::filesystem::exists(file, failed))
+            throw FileError(
+                fmt::format("{}: it has been removed since it was opened", file.string()));
+    }
+}
+
 std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std::size_t step) {
     for (const auto& store : stores_.read) {
         auto file = store->find(origin);
         if (!file || file->type() != variable().type) continue;
-        const Reopened source{{reader_->files().begin(), reader_->files().end()},
-                              variable().name,
-                              step,
-                              store,
-                              origin,
-                              file->about()};
-        const auto field = [source] { return source.read(); };
+        const auto source = std::make_shared<const Reopened>(
+            Reopened{files_, variable().name, step, store, origin, file->about()});
+        const auto field = [source] { return source->read(); };
         const auto again = [source](const std::string& why) {
-            source.store->discard(source.store->pathOf(source.origin), why);
-            if (const auto read = source.read()) return SortedStep::build(*read);
+            source->store->discard(source->store->pathOf(source->origin), why);
+            if (const auto read = source->read()) return SortedStep::build(*read);
             throw FileError(fmt::format("{}: it has changed since it was opened: open it again",
-                                        source.origin.files.front().string()));
+                                        source->origin.files.front().string()));
         };
         try {
             return std::make_shared<const SortedStep>(SortedStep::stored(
@@ -123,16 +131,35 @@ std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
 }
 
 StepMaker::Kept StepMaker::keep(std::size_t step) {
+    const auto origin = originOf(*reader_, variable_, step);
+    if (origin) expectThere(*origin);
     const auto made = make(step);
     if (made->file()) return Kept::Before;
-    if (!hasUnwritten())
+    if (!hasUnwritten()) {
+        if (origin) expectThere(*origin);
         return made->size() == 0                       ? Kept::Empty
                : made->sharedGrid() != variable().grid ? Kept::Moves
                                                        : Kept::Unknown;
+    }
     const Unwritten next = unwritten_.front();
     unwritten_.pop_front();
-    const bool isWritten = stores_.write->write(next.origin, next.stamp, *made, reader_->openedAt);
-    return isWritten ? Kept::Written : Kept::Changed;
+    switch (stores_.write->write(next.origin, next.stamp, *made, reader_->openedAt)) {
+        case StepStore::Wrote::All:
+            return Kept::Written;
+        case StepStore::Wrote::NoRoom:
+            return Kept::NoRoom;
+        case StepStore::Wrote::Nothing:
+            break;
+    }
+    expectThere(next.origin);
+    return Kept::Changed;
+}
+
+StepMaker::Kept StepMaker::keepNoMore(std::size_t step) {
+    const auto origin = originOf(*reader_, variable_, step);
+    if (!origin) return Kept::Unknown;
+    expectThere(*origin);
+    return find(*origin, step) ? Kept::Before : Kept::NoRoom;
 }
 
 bool StepMaker::hasUnwritten() {

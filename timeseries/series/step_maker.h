@@ -25,6 +25,9 @@ struct StepStores {
 
 // None where the reader does not know it. Throws FileError.
 std::optional<StepOrigin> originOf(Reader& reader, std::size_t variable, std::size_t step);
+// Throws FileError when a file of it has been removed: who has it open may read on, and what is
+// read is of no file any more.
+void expectThere(const StepOrigin& origin);
 
 // One thread at a time.
 class StepMaker {
@@ -43,11 +46,13 @@ class StepMaker {
     std::shared_ptr<const SortedStep> make(std::size_t step);
 
     // Writes it at once, unless it is there, or cannot be kept: its points move, it has no value,
-    // its files have changed meanwhile or just before, or nobody knows which these are. Throws as
-    // make(), and StepFileError.
-    enum class Kept { Before, Written, Moves, Empty, Changed, Unknown };
-    static constexpr std::size_t kKept = 6;
+    // its files have changed meanwhile or just before, nobody knows which these are, or there is no
+    // room. Throws as make(), and StepFileError.
+    enum class Kept { Before, Written, Moves, Empty, Changed, Unknown, NoRoom };
+    static constexpr std::size_t kKept = 7;
     Kept keep(std::size_t step);
+    // As keep() where there is no room: Before, Unknown or NoRoom, without sorting.
+    Kept keepNoMore(std::size_t step);
 
     // Steps that were sorted, are worth writing and are still in use.
     bool hasUnwritten();
@@ -67,6 +72,7 @@ class StepMaker {
     Field read(std::size_t step);
 
     const std::unique_ptr<Reader> reader_;
+    const std::shared_ptr<const std::vector<std::filesystem::path>> files_;  // the reader's
     OpenedFiles opened_;
     const std::size_t variable_;
     const RangeSet kept_, asked_;

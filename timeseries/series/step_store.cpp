@@ -18,17 +18,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::system_clock;
 using nlohmann::ordered_json;
 
-constexpr const char* kSuffix = ".isostep";
-
-std::int64_t nanosecondsOf(const timespec& at) {
-    return std::int64_t{at.tv_sec} * 1'000'000'000 + at.tv_nsec;
-}
-
-Clock::time_point timeOf(std::int64_t sinceEpoch) {
-    return Clock::time_point(
-        std::chrono::duration_cast<Clock::duration>(std::chrono::nanoseconds(sinceEpoch)));
-}
-
 // From where the store lies to a file that it lies beside, or in a folder there: of files alike in
 // name there may be one for each case, run or time.
 fs::path fromBeside(const fs::path& store, const fs::path& file) {
@@ -40,13 +29,6 @@ fs::path fromBeside(const fs::path& store, const fs::path& file) {
     return near.empty() ? plain(file) : near;
 }
 
-// `pathOf` gives such names, 32 digits; what else lies in a folder is somebody's own.
-bool isStored(const fs::path& path) {
-    const std::string name = path.stem().string();
-    return path.extension() == kSuffix && name.size() == 32 &&
-           name.find_first_not_of("0123456789abcdef") == name.npos;
-}
-
 // JSON holds UTF-8 alone, names of files any bytes.
 std::string textOf(const std::string& text) {
     return ordered_json(text).dump(-1, ' ', true, ordered_json::error_handler_t::replace);
@@ -54,33 +36,45 @@ std::string textOf(const std::string& text) {
 
 }  // namespace
 
-fs::path StepStore::nameOf(const fs::path& file) const {
-    if (kind_ == StoreKind::Beside) return fromBeside(folder_, file);
-    std::error_code failed;
-    const fs::path whole = fs::weakly_canonical(file, failed);
-    return failed ? fs::absolute(file, failed) : whole;
+std::vector<std::string> StepStore::namesOf(const StepOrigin& origin) const {
+    std::vector<std::string> names;
+    for (const fs::path& file : origin.files) {
+        if (kind_ == StoreKind::Beside) {
+            names.push_back(fromBeside(folder_, file).string());
+            continue;
+        }
+        std::error_code failed;
+        const fs::path whole = fs::weakly_canonical(file, failed);
+        names.push_back((failed ? fs::absolute(file, failed) : whole).string());
+    }
+    return names;
 }
 
 StepStore::StepStore(fs::path folder, StoreKind kind, std::uint64_t budget,
                      std::chrono::milliseconds settled)
-    : folder_(std::move(folder)), kind_(kind), budget_(budget), settled_(settled) {}
+    : folder_(std::move(folder)), kind_(kind), settled_(settled), room_(folder_, budget) {}
 
 std::optional<OriginStamp> StepStore::stampOf(const StepOrigin& origin) const {
+    return stampOf(origin, namesOf(origin));
+}
+
+std::optional<OriginStamp> StepStore::stampOf(const StepOrigin& origin,
+                                              std::span<const std::string> names) const {
     OriginStamp stamp;
     std::string files;
-    for (const fs::path& file : origin.files) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
         struct stat status {};
-        if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+        if (::stat(origin.files[i].c_str(), &status) != 0) return std::nullopt;
         files += fmt::format("{}{{\"file\": {}, \"bytes\": {}, \"modified\": {}",
-                             files.empty() ? "" : ", ", textOf(nameOf(file).string()),
-                             status.st_size, nanosecondsOf(status.st_mtim));
-        std::int64_t last = nanosecondsOf(status.st_mtim);
+                             files.empty() ? "" : ", ", textOf(names[i]), status.st_size,
+                             nanosecondsOf(status.st_mtim));
+        auto last = timeOf(status.st_mtim);
         if (kind_ == StoreKind::Cache) {
             files += fmt::format(", \"changed\": {}", nanosecondsOf(status.st_ctim));
-            last = std::max(last, nanosecondsOf(status.st_ctim));
+            last = std::max(last, timeOf(status.st_ctim));
         }
         files += "}";
-        stamp.changed = std::max(stamp.changed, timeOf(last));
+        stamp.changed = std::max(stamp.changed, last);
     }
     stamp.text = fmt::format(
         "{{\"variable\": {}, \"storedAs\": {}, \"step\": {}, \"readers\": {}, \"files\": [{}]}}",
@@ -90,17 +84,21 @@ std::optional<OriginStamp> StepStore::stampOf(const StepOrigin& origin) const {
 }
 
 fs::path StepStore::pathOf(const StepOrigin& origin) const {
+    return pathOf(origin, namesOf(origin));
+}
+
+fs::path StepStore::pathOf(const StepOrigin& origin, std::span<const std::string> names) const {
     // Each part with its length, so that no two origins read the same.
     std::string whole;
     const auto add = [&](const std::string& part) {
         whole += fmt::format("{}:{};", part.size(), part);
     };
-    for (const fs::path& file : origin.files) add(nameOf(file).string());
+    for (const std::string& name : names) add(name);
     add(origin.variable);
     add(origin.storedAs);
     add(std::to_string(origin.step));
     const XXH128_hash_t hash = XXH3_128bits(whole.data(), whole.size());
-    return folder_ / fmt::format("{:016x}{:016x}{}", hash.high64, hash.low64, kSuffix);
+    return folder_ / fmt::format("{:016x}{:016x}{}", hash.high64, hash.low64, kStoredSuffix);
 }
 
 std::shared_ptr<const StepFile> StepStore::find(const StepOrigin& origin) {
@@ -108,13 +106,13 @@ std::shared_ptr<const StepFile> StepStore::find(const StepOrigin& origin) {
     if (!file) return nullptr;
     // When it was used last; a folder that cannot be written to keeps what it has.
     (void)::utimensat(AT_FDCWD, file->name().c_str(), nullptr, 0);
-    own(pathOf(origin));
     return file;
 }
 
 std::shared_ptr<const StepFile> StepStore::look(const StepOrigin& origin) {
-    const fs::path path = pathOf(origin);
-    const auto stamp = stampOf(origin);
+    const std::vector<std::string> names = namesOf(origin);
+    const fs::path path = pathOf(origin, names);
+    const auto stamp = stampOf(origin, names);
     if (!stamp) return nullptr;
     try {
         auto bytes = timeseries::openBytes(path);
@@ -129,43 +127,47 @@ std::shared_ptr<const StepFile> StepStore::look(const StepOrigin& origin) {
     return nullptr;
 }
 
-bool StepStore::write(const StepOrigin& origin, const OriginStamp& stamp, const SortedStep& step,
-                      Clock::time_point opened, const std::function<bool(double)>& goOn) {
+StepStore::Wrote StepStore::write(const StepOrigin& origin, const OriginStamp& stamp,
+                                  const SortedStep& step, Clock::time_point opened,
+                                  const std::function<bool(double)>& goOn) {
     return write(origin, stamp, opened,
                  [&](WholeFile& file) { return writeStep(step, stamp.text, file, goOn); });
 }
 
-bool StepStore::write(const StepOrigin& origin, const OriginStamp& stamp, Clock::time_point opened,
-                      const std::function<bool(WholeFile&)>& into) {
+StepStore::Wrote StepStore::write(const StepOrigin& origin, const OriginStamp& stamp,
+                                  Clock::time_point opened,
+                                  const std::function<bool(WholeFile&)>& into) {
     const auto isStill = [&] {
         const auto now = stampOf(origin);
         return now && now->text == stamp.text;
     };
-    if (stamp.changed + settled_ > std::min(opened, Clock::now()) || !isStill()) return false;
+    if (stamp.changed + settled_ > std::min(opened, Clock::now()) || !isStill())
+        return Wrote::Nothing;
     std::error_code failed;
     fs::create_directories(folder_, failed);
     if (failed) throw StepFileError(fmt::format("{}: {}", folder_.string(), failed.message()));
-    removeUnfinished(folder_, isStored);
-    WholeFile file(pathOf(origin));
-    if (!into(file) || !isStill()) return false;
+    removeLeftovers();
+    const fs::path path = pathOf(origin);
+    WholeFile file(path);
+    if (!into(file) || !isStill()) return Wrote::Nothing;
+    if (!room_.make(path, file.bytes())) return Wrote::NoRoom;
     file.finish();
-    own(pathOf(origin));
-    makeRoom();
-    return true;
+    return Wrote::All;
 }
 
-std::vector<StepStore::Entry> StepStore::list() const {
-    std::vector<Entry> entries;
-    std::error_code failed;
-    for (const auto& item : fs::directory_iterator(folder_, failed)) {
-        if (!isStored(item.path())) continue;
-        struct stat status {};
-        if (::stat(item.path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
-        entries.push_back({item.path(), static_cast<std::uint64_t>(status.st_size),
-                           timeOf(nanosecondsOf(status.st_mtim))});
+std::vector<StoredFile> StepStore::list() const {
+    std::vector<StoredFile> files = storedFiles(folder_);
+    std::erase_if(files, [](const StoredFile& file) { return !isOfStore(file.path); });
+    std::ranges::sort(files, std::greater(), &StoredFile::used);
+    return files;
+}
+
+bool StepStore::isEmpty() const {
+    try {
+        return storedFiles(folder_).empty();
+    } catch (const StepFileError&) {
+        return true;
     }
-    std::ranges::sort(entries, std::greater(), &Entry::used);
-    return entries;
 }
 
 std::string StepStore::aboutOf(const fs::path& path) {
@@ -180,44 +182,30 @@ std::string StepStore::aboutOf(const fs::path& path) {
 std::optional<Clock::time_point> StepStore::changedAt(const fs::path& file) {
     struct stat status {};
     if (::stat(file.c_str(), &status) != 0) return std::nullopt;
-    return timeOf(std::max(nanosecondsOf(status.st_mtim), nanosecondsOf(status.st_ctim)));
+    return std::max(timeOf(status.st_mtim), timeOf(status.st_ctim));
+}
+
+// Programs that are interrupted are few: once for each that writes.
+void StepStore::removeLeftovers() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (std::exchange(isTidied_, true)) return;
+    }
+    removeUnfinished(folder_, isStored);
 }
 
 std::uint64_t StepStore::clear() {
     removeUnfinished(folder_, isStored);
     std::uint64_t bytes = 0;
-    for (const Entry& entry : list()) {
+    for (const StoredFile& file : list()) {
         std::error_code failed;
-        if (fs::remove(entry.path, failed)) bytes += entry.bytes;
+        if (fs::remove(file.path, failed)) bytes += file.bytes;
         if (failed)
             throw StepFileError(fmt::format("{}: cannot be removed: {}; {:.1f} MB were before it",
-                                            entry.path.string(), failed.message(),
+                                            file.path.string(), failed.message(),
                                             static_cast<double>(bytes) * 1e-6));
     }
     return bytes;
-}
-
-// Those used last stay.
-void StepStore::makeRoom() {
-    if (budget_ == kNoBudget) return;
-    std::uint64_t bytes = 0;
-    std::error_code failed;
-    for (const Entry& entry : list()) {
-        bytes += entry.bytes;
-        if (bytes <= budget_ || !fs::remove(entry.path, failed)) continue;
-        const std::lock_guard lock(mutex_);
-        lost_ += own_.erase(entry.path);
-    }
-}
-
-void StepStore::own(fs::path path) {
-    const std::lock_guard lock(mutex_);
-    own_.insert(std::move(path));
-}
-
-std::size_t StepStore::lost() const {
-    const std::lock_guard lock(mutex_);
-    return lost_;
 }
 
 void StepStore::discard(const fs::path& path, const std::string& why) {

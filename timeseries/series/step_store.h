@@ -9,12 +9,14 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "timeseries/index/sorted_step.h"
 #include "timeseries/index/step_file.h"
+#include "timeseries/series/store_files.h"
+#include "timeseries/series/store_room.h"
 #include "timeseries/series/whole_file.h"
 
 namespace timeseries {
@@ -45,7 +47,7 @@ enum class StoreKind {
 // cannot be read is as if it were not there; nothing is ever locked for readers.
 class StepStore {
  public:
-    static constexpr std::uint64_t kNoBudget = ~std::uint64_t{0};
+    static constexpr std::uint64_t kNoBudget = StoreRoom::kNoBudget;
     static constexpr std::chrono::milliseconds kSettled{2000};
     // A file of the origin that changed less than `settled` before it was opened may have changed
     // again and have the same time: such a step is not written.
@@ -64,59 +66,59 @@ class StepStore {
     std::filesystem::path pathOf(const StepOrigin& origin) const;
 
     // Writes the step, whole or not at all, over one that is there. `stamp`: of the origin before
-    // the step was read; `opened`: when its files were opened. False, and nothing is written, when
+    // the step was read; `opened`: when its files were opened. Nothing is written when
     // the stamp is another now, or was not settled then, or goOn() says no. Throws StepFileError,
     // whose sentence says what is not possible.
-    bool write(const StepOrigin& origin, const OriginStamp& stamp, const SortedStep& step,
-               std::chrono::system_clock::time_point opened,
-               const std::function<bool(double)>& goOn = {});
+    enum class Wrote { All, Nothing, NoRoom };
+    Wrote write(const StepOrigin& origin, const OriginStamp& stamp, const SortedStep& step,
+                std::chrono::system_clock::time_point opened,
+                const std::function<bool(double)>& goOn = {});
     // Written by whoever knows the points: into(file) writes all but finish(), and says whether
     // it did.
-    bool write(const StepOrigin& origin, const OriginStamp& stamp,
-               std::chrono::system_clock::time_point opened,
-               const std::function<bool(WholeFile&)>& into);
+    Wrote write(const StepOrigin& origin, const OriginStamp& stamp,
+                std::chrono::system_clock::time_point opened,
+                const std::function<bool(WholeFile&)>& into);
     // Steps cannot be written there: why, is told.
     void giveUp(const std::string& why);
 
-    struct Entry {
-        std::filesystem::path path;
-        std::uint64_t bytes = 0;
-        std::chrono::system_clock::time_point used;
-    };
-    // The last used first.
-    std::vector<Entry> list() const;
-    // What an entry was made of, OriginStamp::text; "" where it cannot be read.
+    // The last used first. Throws StepFileError where the folder is none, or cannot be listed.
+    std::vector<StoredFile> list() const;
+    // Whether none would be found: nothing is there, or cannot be listed.
+    bool isEmpty() const;
+    // What one of them was made of, OriginStamp::text; "" where it cannot be read.
     static std::string aboutOf(const std::filesystem::path& path);
     // When a file was changed last; none where it is not there.
     static std::optional<std::chrono::system_clock::time_point> changedAt(
         const std::filesystem::path& file);
-    // Removes all, and what interrupted writers have left; files under names of their own stay.
+    // Removes all, and what interrupted writers have left; what no store has written stays.
     // Returns the bytes that were taken. Throws StepFileError.
     std::uint64_t clear();
 
     // A step turned out to be damaged: it is removed, and told.
     void discard(const std::filesystem::path& path, const std::string& why);
-    // How many of those that were written or found through this have made room for others since.
-    std::size_t lost() const;
-    std::uint64_t budget() const { return budget_; }
+    // For how much, and for what, there is room here.
+    StoreRoom& room() { return room_; }
+    std::uint64_t budget() const { return room_.budget(); }
     // What a user should know, each once, since the last call.
     std::vector<std::string> takeNotes();
 
  private:
-    // What a file is known by.
-    std::filesystem::path nameOf(const std::filesystem::path& file) const;
-    void makeRoom();
-    void own(std::filesystem::path path);
+    // What the origin's files are known by, which asks the system for each folder on their ways.
+    std::vector<std::string> namesOf(const StepOrigin& origin) const;
+    std::optional<OriginStamp> stampOf(const StepOrigin& origin,
+                                       std::span<const std::string> names) const;
+    std::filesystem::path pathOf(const StepOrigin& origin,
+                                 std::span<const std::string> names) const;
+    void removeLeftovers();
     void note(std::string text);
 
     const std::filesystem::path folder_;
     const StoreKind kind_;
-    const std::uint64_t budget_;
     const std::chrono::milliseconds settled_;
+    StoreRoom room_;
     mutable std::mutex mutex_;
     std::vector<std::string> notes_, told_;  // guarded by mutex_, as what follows
-    std::set<std::filesystem::path> own_;
-    std::size_t lost_ = 0;
+    bool isTidied_ = false;
 };
 
 // A tenth of the disk that the folder is, or would be, on, at most 64 GiB.

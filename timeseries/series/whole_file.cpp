@@ -93,6 +93,12 @@ void WholeFile::write(std::uint64_t at, std::span<const std::byte> bytes) {
     writeAll(file_, path_, at, bytes);
 }
 
+std::uint64_t WholeFile::bytes() const {
+    struct stat status {};
+    if (::fstat(file_, &status) != 0) fail(path_, errno);
+    return static_cast<std::uint64_t>(status.st_size);
+}
+
 void WholeFile::finish() {
     if (::fsync(file_) != 0) fail(path_, errno);
     if (::rename(unfinished_.c_str(), path_.c_str()) != 0) fail(path_, errno);

@@ -21,6 +21,8 @@ class WholeFile final : public ByteSink {
     ~WholeFile() override;
 
     void write(std::uint64_t at, std::span<const std::byte> bytes) override;
+    // So far.
+    std::uint64_t bytes() const;
     // On the disk, and there under its name, in that order.
     void finish();
     // Where it is until then: for a FilePart of another process.
