@@ -34,8 +34,9 @@ void writeField(const std::filesystem::path& file, const char* type, std::size_t
 struct ProgramRun {
     double ms = 0, megabytes = 0;
 };
-inline ProgramRun runProgram(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), tests::program().string());
+inline ProgramRun runProgram(std::vector<std::string> arguments,
+                             const std::string& program = tests::program()) {
+    arguments.insert(arguments.begin(), program);
     std::vector<char*> raw;
     for (std::string& argument : arguments) raw.push_back(argument.data());
     raw.push_back(nullptr);

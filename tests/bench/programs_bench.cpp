@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "tests/bench/program_run.h"
 #include "tests/bench/turbulence.h"
@@ -34,20 +36,24 @@ std::string onePercent(const timeseries::Field& field) {
     return at(0.495) + ":" + at(0.505);
 }
 
-// The first picture of n^3 floats, 1 % of them about the median, by the program: without an index
-// and with one.
-void storePicture(benchmark::State& state) {
-    const TemporaryFolder folder;
-    const std::string file = folder.path() / "field.nrrd", cache = folder.path() / "cache",
-                      picture = folder.path() / "picture.png";
-    std::string range;
-    {
-        const auto n = static_cast<std::size_t>(state.range(0));
+// A file of n^3 floats with an index, of which 1 % about the median are drawn.
+struct IndexedFile {
+    TemporaryFolder folder;
+    std::string file = folder.path() / "field.nrrd", cache = folder.path() / "cache",
+                picture = folder.path() / "picture.png", range;
+
+    explicit IndexedFile(std::size_t n) {
         const timeseries::Field field = bench::turbulence<float>(n);
         bench::writeField(file, "float", n, std::get<std::vector<float>>(field.values));
         range = onePercent(field);
+        runProgram({"index", file, "--cache", cache});
     }
-    runProgram({"index", file, "--cache", cache});
+};
+
+// The first picture by the program: without an index and with one.
+void storePicture(benchmark::State& state) {
+    const IndexedFile of(static_cast<std::size_t>(state.range(0)));
+    const auto& [folder, file, cache, picture, range] = of;
     for (auto _ : state)
         for (const std::string model : {"cells", "points"})
             for (const std::string from : {"file", "index"})
@@ -56,6 +62,25 @@ void storePicture(benchmark::State& state) {
                                 from == "index" ? cache : "off", "-o", picture}));
 }
 BENCHMARK(storePicture)->ArgNames({"points"})->Arg(512)->Unit(benchmark::kSecond)->Iterations(1);
+
+// By points, as drawn by the program and by a former one (ISOCHRON_FORMER), which has no index, by
+// turns.
+void formerPicture(benchmark::State& state) {
+    const char* const former = std::getenv("ISOCHRON_FORMER");
+    if (!former) return state.SkipWithError("expected ISOCHRON_FORMER to name a program");
+    const IndexedFile of(static_cast<std::size_t>(state.range(0)));
+    std::vector<double> now, before;
+    for (auto _ : state) {
+        now.push_back(runProgram({"render", of.file, "--model", "points", "--range", of.range,
+                                  "--cache", of.cache, "-o", of.picture})
+                          .ms);
+        before.push_back(
+            runProgram({"render", of.file, "--range", of.range, "-o", of.picture}, former).ms);
+    }
+    state.counters["now_ms"] = bench::median(now);
+    state.counters["former_ms"] = bench::median(before);
+}
+BENCHMARK(formerPicture)->ArgNames({"points"})->Arg(512)->Unit(benchmark::kSecond)->Iterations(5);
 
 // A step of 1024^3 bytes: sorted, counted and drawn by the program.
 void storeLarge(benchmark::State& state) {

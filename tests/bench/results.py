@@ -58,7 +58,7 @@ def former():
     there = ROOT / "build/former"
     if not there.exists():
         shell(f"git worktree prune; git worktree add --detach {there} {FORMER}")
-    shell(f"cd {there}; source .ci/setup.sh; configure release -DISOCHRON_BENCH=ON; build release isochron_bench")
+    shell(f"cd {there}; source .ci/setup.sh; configure release -DISOCHRON_BENCH=ON; build release isochron_bench isochron")
     names = "|".join(name for name, *_ in FORMER_FRAMES)
     figures = {name: [] for name, *_ in FORMER_FRAMES}
     for _ in range(7):
@@ -67,6 +67,8 @@ def former():
                 for bench in (BENCH, there / "build/release/tests/bench/isochron_bench")]
         for name in figures:
             figures[name].append([now[name] for now in pair])
+    picture = json.loads(said(f"ISOCHRON_FORMER={there}/build/release/app/isochron {BENCH} '--benchmark_filter=^formerPicture' --benchmark_format=json 2>/dev/null"))["benchmarks"][0]
+    figures["picture"] = [[picture["now_ms"], picture["former_ms"]]]
     return figures
 
 
@@ -510,8 +512,12 @@ def former_page(part):
         ratio = statistics.median(before / now for now, before in pairs)
         rows.append([what, *(time(1e-3 * statistics.median(side)) for side in zip(*pairs)), digits(ratio)])
         target(f"a frame of {what}: at {FORMER} / now", ratio, asked, at_least=True)
+    for now, before in part.figures.get("picture", []):
+        rows.append(["first picture of 512³ by points", time(1e-3 * now), time(1e-3 * before), digits(before / now)])
+        target(f"first picture of 1 % of 512³ by points: at {FORMER} / now, with an index", before / now, 20, at_least=True)
     return (f"A whole frame of 1024 x 1024 until `glFinish`, resolve included, as it is now and at {FORMER}, the last commit before there were tiles: its own\n"
-            "benchmarks, built and run by turns with these, seven times.\n\n" + table(["", "now", f"at {FORMER}", "ratio"], rows))
+            "benchmarks, built and run by turns with these, seven times. The first picture is `render`'s, 1200 x 900, of 1 % about the median, now from an\n"
+            "index and with its error, which that commit does not tell.\n\n" + table(["", "now", f"at {FORMER}", "ratio"], rows))
 
 
 def page():
