@@ -37,7 +37,7 @@ TEST(NetcdfSigns, CoordinatesAndTimesAreAsTheFileMeansThem) {
                     ElementsAre(40000, 40010, 65535));
         EXPECT_THAT(tests::timesOf(*reader), ElementsAre(36524, 36525));
         // 100 years of which 24 have a day more: 1900 has not, 2000 begins.
-        EXPECT_EQ(reader->variables()[0].time->points[0].date, "2000-01-01");
+        EXPECT_EQ(reader->variables()[0].time->points[0].date, "2000-01-01 00:00:00");
     }
 }
 
