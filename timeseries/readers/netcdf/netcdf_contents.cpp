@@ -163,7 +163,9 @@ FileContents contentsOf(const CfFile& file) {
         if (roles.spatial() < 2 && !list) continue;
         const std::string why = obstacle(file, variable, roles);
         if (!why.empty()) {
-            passedOver += fmt::format("; {}: {}", header.declaration(variable), why);
+            // Plain HDF5 has tables and lists beside fields.
+            if (header.format != kPlainHdf5 || variable.dimensions.size() > 2)
+                passedOver += fmt::format("; {}: {}", header.declaration(variable), why);
             continue;
         }
         try {
