@@ -52,7 +52,7 @@ if(NOT count EQUAL 1)
 endif()
 file(WRITE ${WORK}/file "")
 run("${MPIRUN} 3 ${program} index field.nc --cache file")
-told(1 "Not a directory|File exists|not a directory")
+told(1 "Not a directory|File exists|not a directory|expected a folder")
 
 # A simulation: any number of processes writes the same files, and they are a series.
 run("${MPIRUN} 4 [==[${WAVE}]==] 40 3 wave")
