@@ -13,9 +13,9 @@
 #include "render/annotate/axis_labels.h"
 #include "render/annotate/legend.h"
 #include "render/annotate/ticks.h"
-#include "tests/support/flat_text.h"
 #include "tests/support/measured_axis.h"
 #include "tests/support/rounds.h"
+#include "tests/support/text_page.h"
 
 namespace app {
 namespace {
@@ -24,6 +24,7 @@ using render::FlatMesh;
 using render::PixelRect;
 using timeseries::Axis;
 using timeseries::Grid;
+using namespace tests::text_page;
 
 // Like the files that are at hand: a cube, an ocean, a sheet, a hurricane, air by pressure, a
 // channel, a turned grid, and one whose names and numbers are long.
@@ -71,52 +72,6 @@ render::Legend legend(std::size_t layers, bool wordy) {
     return made;
 }
 
-// A picture's texts and lines, as they are drawn.
-struct Page {
-    glm::ivec2 size;
-    FlatMesh legend;
-    render::AxesMeshes axes;
-    std::vector<render::AxisLabels> labels;
-    render::Sights sights;
-
-    Page(const Grid& grid, const render::PlacedPoints& placed, const render::View& view,
-         const glm::dvec3& midEye, const render::Legend& words)
-        : size(view.size),
-          legend(render::legendMesh(words, tests::fontFor(size), size)),
-          axes(render::axesMeshes(grid, placed, view, midEye, tests::fontFor(size), legend)),
-          sights(placed.inAxes(view), inAxes(placed, midEye), placed.boxHalf()) {
-        labels = render::axisLabels(grid, placed, sights, inAxes(placed, midEye), size,
-                                    tests::fontFor(size), render::labelStyle(size), plates());
-    }
-    static glm::dvec3 inAxes(const render::PlacedPoints& placed, const glm::dvec3& world) {
-        return glm::inverse(placed.worldFromAxes()) * world;
-    }
-    double line() const { return render::labelStyle(size).linePixels; }
-    std::vector<PixelRect> plates() const { return render::coveredByLegend(legend, size); }
-    PixelRect seen(const render::Label& label) const {
-        return label.ink.moved(sights.pixel(0, label.anchor));
-    }
-    std::vector<PixelRect> texts() const {
-        std::vector<PixelRect> all = legend.covers();
-        all.insert(all.end(), axes.labels.covers().begin(), axes.labels.covers().end());
-        return all;
-    }
-    std::vector<std::string> numbers(const render::AxisLabels& axis) const {
-        std::vector<std::string> all;
-        for (const auto& number : axis.numbers)
-            all.push_back(number ? number->text : std::string());
-        return all;
-    }
-    std::vector<std::string> words() const {
-        std::vector<std::string> all;
-        for (const render::AxisLabels& axis : labels) {
-            for (const std::string& number : numbers(axis)) all.push_back(number);
-            all.push_back(axis.name ? axis.name->text : std::string());
-        }
-        return all;
-    }
-};
-
 std::vector<std::pair<glm::dvec2, glm::dvec2>> lines(const render::AxesMeshes& axes) {
     std::vector<std::pair<glm::dvec2, glm::dvec2>> found;
     for (const FlatMesh* mesh : {&axes.behind, &axes.before}) {
@@ -144,31 +99,6 @@ void expectApart(const Page& page, const std::string& which) {
     for (const auto& [from, to] : lines(page.axes))
         for (std::size_t i = 0; i < texts.size(); ++i)
             EXPECT_FALSE(render::partInside(from, to, texts[i])) << which << ": a line, text " << i;
-}
-
-// An edge of the box in a picture.
-struct SeenEdge {
-    render::Edge edge;
-    glm::dvec2 from, to;
-    bool outline;
-};
-std::vector<SeenEdge> edgesIn(const Page& page, const render::PlacedPoints& placed,
-                              const glm::dvec3& midEye) {
-    const auto half = placed.boxHalf();
-    std::vector<SeenEdge> found;
-    for (const render::Edge& edge : render::edges(half)) {
-        const glm::dvec3 a = edge.at(half, -1), b = edge.at(half, 1);
-        const auto part = page.sights.middle().visible(a, b, render::Screen::Cut::Picture);
-        if (!part) continue;
-        found.push_back({edge, page.sights.pixel(0, glm::mix(a, b, part->x)),
-                         page.sights.pixel(0, glm::mix(a, b, part->y)),
-                         lies(edge, half, Page::inAxes(placed, midEye)) == render::Lies::Outline});
-    }
-    return found;
-}
-
-bool isLabelled(const SeenEdge& shown, const render::AxisLabels& axis) {
-    return shown.edge.axis == axis.edge.axis && shown.edge.side == axis.edge.side;
 }
 
 // Whoever reads a name takes the nearest axis for its own.

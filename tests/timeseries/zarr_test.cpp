@@ -8,9 +8,8 @@
 #include <limits>
 
 #include "tests/support/read_variables.h"
-#include "tests/support/zarr_store.h"
+#include "tests/support/zarr_steps.h"
 #include "timeseries/index/sorted_step.h"
-#include "timeseries/readers/series_files.h"
 #include "timeseries/readers/zarr/zarr_hierarchy.h"
 
 namespace timeseries::zarr {
@@ -20,42 +19,6 @@ using namespace tests;
 using namespace tests::zarr;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-// Not all bytes of it are alike, nor its neighbours.
-template <typename T>
-T valueAt(const Lengths& at) {
-    std::uint64_t n = 7;
-    for (const std::size_t along : at) n = n * 31 + along;
-    if constexpr (std::is_floating_point_v<T>)
-        return static_cast<T>(n % 100000) / static_cast<T>(7);
-    else
-        return static_cast<T>(n * 0x9E3779B97F4A7C15u >> 3);
-}
-
-// The values of step t of an array (t, z, y, x), x fastest.
-template <typename T>
-std::vector<T> expected(const Lengths& shape, std::size_t t) {
-    std::vector<T> values;
-    forEachAt({shape[1], shape[2], shape[3]}, [&](const Lengths& at) {
-        values.push_back(valueAt<T>({t, at[0], at[1], at[2]}));
-    });
-    return values;
-}
-
-// Chunks that end within the array and beyond it, along each dimension.
-const Layout kLayout{.shape = {3, 5, 4, 7}, .chunk = {2, 2, 3, 4}};
-
-template <typename T>
-void expectValues(const std::filesystem::path& store, const std::string& told) {
-    const auto reader = open(store);
-    ASSERT_EQ(reader->variables().size(), 1u) << told;
-    const Variable& variable = reader->variables()[0];
-    EXPECT_EQ(variable.time->points.size(), 3u) << told;
-    EXPECT_EQ(variable.grid->size(), (std::array<std::size_t, 3>{7, 4, 5})) << told;
-    for (const std::size_t step : {0, 1, 2, 0})  // of which chunks have two
-        EXPECT_EQ(valuesOf<T>(*reader, variable.name, step), expected<T>(kLayout.shape, step))
-            << told << ", step " << step;
-}
 
 template <typename T>
 void expectBothVersions(const std::string& code, const std::string& name) {
@@ -68,7 +31,7 @@ void expectBothVersions(const std::string& code, const std::string& name) {
                                                                  : '<') +
                                                      code));
         writeChunks<T>(store / "v", layout, valueAt<T>);
-        expectValues<T>(store, code + (bigEndian ? " big" : " little"));
+        expectStepsRead<T>(store, code + (bigEndian ? " big" : " little"));
 
         layout.keyStart = "c";
         layout.separator = "/";
@@ -79,7 +42,7 @@ void expectBothVersions(const std::string& code, const std::string& name) {
                                             R"("{}"}}}}])",
                                             bigEndian ? "big" : "little")}}));
         writeChunks<T>(store / "v", layout, valueAt<T>);
-        expectValues<T>(store, name + (bigEndian ? " big" : " little"));
+        expectStepsRead<T>(store, name + (bigEndian ? " big" : " little"));
     }
 }
 
@@ -128,7 +91,7 @@ TEST(Zarr, ChunksThatAnyCompressorPackedAreUnpacked) {
             v2Array(layout, "<f4",
                     {{"compressor", fmt::format(R"({{"id": "{}"}})", packer.name)}}));
         writeChunks<float>(store / "v", layout, valueAt<float>);
-        expectValues<float>(store, packer.name);
+        expectStepsRead<float>(store, packer.name);
 
         // With a checksum before and behind it.
         layout.pack = [&](const std::string& bytes) {
@@ -143,7 +106,7 @@ TEST(Zarr, ChunksThatAnyCompressorPackedAreUnpacked) {
             packer.name);
         put(store / "v/zarr.json", v3Array(layout, "float32", {{"codecs", codecs}}));
         writeChunks<float>(store / "v", layout, valueAt<float>);
-        expectValues<float>(store, packer.name);
+        expectStepsRead<float>(store, packer.name);
     }
 }
 
@@ -155,7 +118,7 @@ TEST(Zarr, AGzipFileMayHaveSeveralMembers) {
     const auto store = v2Group();
     put(store / "v/.zarray", v2Array(layout, "<f4", {{"compressor", R"({"id": "gzip"})"}}));
     writeChunks<float>(store / "v", layout, valueAt<float>);
-    expectValues<float>(store, "two members");
+    expectStepsRead<float>(store, "two members");
 }
 
 TEST(Zarr, ChunksOfAnyOrderAreTurned) {
@@ -164,7 +127,7 @@ TEST(Zarr, ChunksOfAnyOrderAreTurned) {
     std::filesystem::path store = v2Group();
     put(store / "v/.zarray", v2Array(layout, "<i2", {{"order", "\"F\""}}));
     writeChunks<std::int16_t>(store / "v", layout, valueAt<std::int16_t>);
-    expectValues<std::int16_t>(store, "F");
+    expectStepsRead<std::int16_t>(store, "F");
 
     // Dimension i of what is stored is dimension order[i] of the array; then again.
     const auto v3 = [&](const std::string& transposes) {
@@ -177,7 +140,7 @@ TEST(Zarr, ChunksOfAnyOrderAreTurned) {
                 {{"codecs", "[" + transposes +
                                 R"({"name": "bytes", "configuration": {"endian": "little"}}])"}}));
         writeChunks<std::int16_t>(store / "v", layout, valueAt<std::int16_t>);
-        expectValues<std::int16_t>(store, transposes);
+        expectStepsRead<std::int16_t>(store, transposes);
     };
     const auto transpose = [](const std::string& order) {
         return R"({"name": "transpose", "configuration": {"order": )" + order + "}}, ";
@@ -196,7 +159,7 @@ TEST(Zarr, ChunksHaveTheNamesThatTheirArraySays) {
         put(store / "v/.zarray",
             v2Array(layout, "<f4", {{"dimension_separator", '"' + separator + '"'}}));
         writeChunks<float>(store / "v", layout, valueAt<float>);
-        expectValues<float>(store, "v2 " + separator);
+        expectStepsRead<float>(store, "v2 " + separator);
         for (const std::string name : {"default", "v2"}) {
             layout.keyStart = name == "v2" ? "" : "c";
             store = v3Group();
@@ -206,7 +169,7 @@ TEST(Zarr, ChunksHaveTheNamesThatTheirArraySays) {
                           fmt::format(R"({{"name": "{}", "configuration": {{"separator": "{}"}}}})",
                                       name, separator)}}));
             writeChunks<float>(store / "v", layout, valueAt<float>);
-            expectValues<float>(store, name + separator);
+            expectStepsRead<float>(store, name + separator);
         }
     }
 }
@@ -364,45 +327,6 @@ TEST(Zarr, ASelectionIsWhatAFilterFinds) {
     });
     EXPECT_GT(count, 1000u);
     EXPECT_EQ(step.count(ranges), count);
-}
-
-TEST(Zarr, AFolderIsOneDataSetHoweverItIsNamed) {
-    const auto store = v2Group();
-    put(store / ".zattrs", "{}");
-    put(store / ".zmetadata", "{}");
-    for (const char* name : {"a", "b"}) {
-        put(store / name / ".zarray", v2Array(kLayout, "<f4"));
-        writeChunks<float>(store / name, kLayout, valueAt<float>);
-    }
-    for (const std::filesystem::path& path :
-         {store, store / "", store / ".zgroup", store / ".zattrs", store / ".zmetadata"}) {
-        const auto series = expandSeries(std::span(&path, 1));
-        EXPECT_THAT(series.files, ElementsAre(path));
-        EXPECT_EQ(openReader(series.files)->variables().size(), 2u) << path;
-        EXPECT_TRUE(isReadable(path)) << path;
-    }
-    for (const std::filesystem::path& path : {store / "a", store / "a" / "", store / "a/.zarray"}) {
-        const auto reader = openReader(expandSeries(std::span(&path, 1)).files);
-        ASSERT_EQ(reader->variables().size(), 1u) << path;
-        EXPECT_EQ(reader->variables()[0].name, "a");
-        EXPECT_EQ(reader->format(), "Zarr v2");
-    }
-    EXPECT_FALSE(isReadable(store / "a/0.0.0.0"));
-    EXPECT_FALSE(isReadable(store.parent_path()));
-}
-
-TEST(Zarr, AnArrayAloneIsCalledAsItsFolder) {
-    const auto store = freshFolder() / "alone.zarr";
-    put(store / "zarr.json", v3Array(kLayout, "float32"));
-    Layout layout = kLayout;
-    layout.keyStart = "c";
-    layout.separator = "/";
-    writeChunks<float>(store, layout, valueAt<float>);
-    expectValues<float>(store, "alone");
-    EXPECT_EQ(open(store)->variables()[0].name, "alone");
-    EXPECT_EQ(open(store)->format(), "Zarr v3");
-    // Chunks may be written over without any sign of it in the folder itself.
-    EXPECT_TRUE(open(store)->sources(0, 0).files.empty());
 }
 
 }  // namespace

@@ -4,11 +4,13 @@
 
 #include <vector>
 
+#include "timeseries/readers/limits.h"
+
 namespace timeseries {
 
 void keepChunks(const NcVariable& variable, std::span<const std::size_t> start,
                 std::span<const std::size_t> count) {
-    constexpr double kMostBytes = 1 << 28, kSlotsAChunk = 10;  // few of which meet in a slot
+    constexpr double kSlotsAChunk = 10;  // few of which meet in a slot
     std::vector<std::size_t> chunk(count.size());
     int storage = NC_CONTIGUOUS;
     if (variable.chunkBytes == 0 ||
@@ -25,7 +27,7 @@ void keepChunks(const NcVariable& variable, std::span<const std::size_t> start,
     const double bytes = chunks * static_cast<double>(variable.chunkBytes);
     std::size_t kept = 0, slots = 0;
     float preemption = 0;
-    if (!haveMore || bytes > kMostBytes ||
+    if (!haveMore || bytes > kMaxKeptChunks ||
         nc_get_var_chunk_cache(variable.groupId, variable.id, &kept, &slots, &preemption) !=
             NC_NOERR ||
         static_cast<double>(kept) >= bytes)

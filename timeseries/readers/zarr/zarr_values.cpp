@@ -220,7 +220,7 @@ void ZarrValues::keepOnly(const Index& first, const Index& last,
         bytes *= static_cast<double>(last[d] - first[d] + 1);
         haveMore = haveMore || (count[d] < array_.chunk[d] && count[d] < array_.shape[d]);
     }
-    keeps_ = haveMore && bytes <= kMaxZarrKept;
+    keeps_ = haveMore && bytes <= kMaxKeptChunks;
     std::erase_if(kept_, [&](const auto& each) {
         const Index& chunk = each.first;
         for (std::size_t d = 0; d < first.size(); ++d)

@@ -18,9 +18,6 @@ namespace timeseries {
 // The most chunks that one block may touch: a step of 2^32 points in chunks of 32 x 32 x 32 has
 // half as many.
 constexpr std::uint64_t kMaxZarrChunks = std::uint64_t{1} << 18;
-// The chunks of one block are kept, up to so many bytes, where they hold those of others, too: of
-// further steps, mostly.
-constexpr double kMaxZarrKept = 1 << 28;
 
 class ZarrValues {
  public:
