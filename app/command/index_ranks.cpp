@@ -141,7 +141,7 @@ class TogetherWork {
         timeseries::Field field;
         ranks_.agreed([&] {
             if (slab.count > 0)
-                field = dataset_->reader->readSlab(dataset_->variableIndex, task.step, slab);
+                field = dataset_->reader->slab(dataset_->variableIndex, task.step, slab);
             else
                 field.values = timeseries::withType(dataset_->variable.type, []<typename T>(T) {
                     return timeseries::Values(std::vector<T>());

@@ -1,6 +1,7 @@
 #include "app/picture/depth_error.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "render/reference/sampled_error.h"
 #include "render/reference/splats_on_pixels.h"
 #include "render/splat/cell_pieces.h"
+#include "timeseries/index/field_slabs.h"
 
 namespace app {
 namespace {
@@ -86,11 +88,15 @@ class Ways {
         return depth;
     }
     bool isWanted() const { return wanted_; }
-    double orderOf(Model model, const timeseries::Field& field,
-                   const render::SampledTruth& truth) const {
-        const render::Scene scene = orderedSceneOf(model);
-        if (mixesModels(scene)) return std::numeric_limits<double>::quiet_NaN();
-        return orderError(scene, field, view_, truth.pixels(), truth.weights(), question_.threads);
+    const render::View& view() const { return view_; }
+    // A mesh or globe is looked at all at once.
+    void forEachSlab(const std::function<void(const timeseries::FieldSlab&)>& use) const {
+        const auto whileWanted = [&](const timeseries::FieldSlab& slab) {
+            if (wanted_) use(slab);
+            return wanted_.load();
+        };
+        timeseries::forEachSlab(step_, whileWanted,
+                                placed_.isMesh() ? timeseries::kAllAtOnce : timeseries::kSlabBytes);
     }
 
  private:
@@ -124,15 +130,46 @@ Ordering orderingOf(const Ways& ways, Model model) {
     return scene.order == render::Order::None ? Ordering::Mixed : Ordering::ByDepth;
 }
 
-// What the parts of a model's errors are told by, at the truth's pixels.
-struct SeenWhole {
-    double order;
-    std::vector<double> asDrawn, finely;  // of all its points or cells; where parts are asked for
+// What order costs the light of what is drawn by a model.
+class OrderOf {
+ public:
+    OrderOf(const Ways& ways, Model model, const render::SampledTruth& truth, unsigned threads)
+        : scene_(ways.orderedSceneOf(model)),
+          error_(scene_, ways.view(), truth.pixels(), truth.weights(), threads) {}
+    void add(const timeseries::FieldSlab& slab) {
+        if (!mixesModels(scene_)) error_.add(slab);
+    }
+    double error() const {
+        return mixesModels(scene_) ? std::numeric_limits<double>::quiet_NaN() : error_.error();
+    }
 
-    SeenWhole(const Ways& ways, const Rung& rung, const timeseries::Field& field,
-              const render::SampledTruth& truth, const ErrorQuestion& question)
-        : order(ways.isWanted() ? ways.orderOf(rung.model, field, truth) : 0) {
-        if (question.parts == Parts::None || !ways.isWanted()) return;
+ private:
+    const render::Scene scene_;
+    render::OrderError error_;
+};
+
+using EachPicture = std::vector<std::vector<double>>;  // of the truth's pixels
+
+// Adds all slabs to the truth, of as many rays as the least error of these pictures takes, or of
+// all, which its parts take, and to what tells of order.
+void look(const Ways& ways, const EachPicture& drawn, Parts parts, render::SampledTruth& truth,
+          std::map<Model, OrderOf>& orders) {
+    using Rays = render::SampledTruth::Rays;
+    ways.forEachSlab([&](const timeseries::FieldSlab& slab) {
+        truth.add(slab, Rays::Quarter);
+        for (auto& [model, order] : orders) order.add(slab);
+    });
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& depth : drawn) least = std::min(least, truth.apart(depth, truth.depth()));
+    if (parts == Parts::All || truth.wantsRest(least))
+        ways.forEachSlab([&](const timeseries::FieldSlab& slab) { truth.add(slab, Rays::Rest); });
+}
+
+// What the parts of a rung's error are told by, at the truth's pixels: all its points or cells.
+struct SeenWhole {
+    std::vector<double> asDrawn, finely;
+
+    SeenWhole(const Ways& ways, const Rung& rung, const render::SampledTruth& truth) {
         const render::DepthAt picture = ways.depthOf({rung.model, 1, rung.across});
         if (!ways.isWanted()) return;
         asDrawn = picture(truth.pixels());
@@ -182,26 +219,31 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
     }
     render::Sampling sampling{.threads = question.threads};
     if (ways.isByRays(first)) sampling.asked = kPixelsAsked;
-    const std::shared_ptr<const timeseries::Field> field = step.sharedField();
-    const render::SampledTruth truth(first, *field, view, ways.whereIn(first, pictures[0]),
-                                     sampling);
+    render::SampledTruth truth(first, view, ways.whereIn(first, pictures[0]), sampling);
+    EachPicture drawn;
+    for (const render::DepthAt& picture : pictures) drawn.push_back(picture(truth.pixels()));
+    std::map<Model, OrderOf> orders;
+    for (const Rung& rung : rungs)
+        orders.try_emplace(rung.model, ways, rung.model, truth, question.threads);
+    look(ways, drawn, question.parts, truth, orders);
+    std::map<Model, double> order;
+    for (const auto& [model, of] : orders) order[model] = wanted ? of.error() : 0;
     DepthErrors told{.rungs = {}, .ordering = orderingOf(ways, rungs.front().model)};
     std::map<std::pair<Model, int>, SeenWhole> whole;
     for (std::size_t i = 0; i < rungs.size(); ++i) {
-        const std::pair alike(rungs[i].model, rungs[i].across);
-        const std::vector<double> drawn = pictures[i](truth.pixels());
-        if (!whole.contains(alike))
-            whole.emplace(alike, SeenWhole(ways, rungs[i], *field, truth, question));
         if (!wanted) return {};
-        const SeenWhole& all = whole.at(alike);
-        const double depth = truth.apart(drawn, truth.depth());
+        const double depth = truth.apart(drawn[i], truth.depth());
         const bool isNothing = depth == 0 && std::ranges::all_of(truth.depth(), isZero);
-        RungError& error = told.rungs.emplace_back(RungError{
-            rungs[i], isNothing ? std::numeric_limits<double>::quiet_NaN() : depth, all.order});
-        if (question.parts == Parts::All)
-            error.parts = ErrorParts{.model = truth.apart(all.finely, truth.depth()),
-                                     .subset = truth.apart(drawn, all.asDrawn),
-                                     .pixels = truth.apart(all.asDrawn, all.finely)};
+        RungError& error = told.rungs.emplace_back(
+            RungError{rungs[i], isNothing ? std::numeric_limits<double>::quiet_NaN() : depth,
+                      order.at(rungs[i].model)});
+        if (question.parts == Parts::None) continue;
+        const std::pair alike(rungs[i].model, rungs[i].across);
+        const SeenWhole& all = whole.try_emplace(alike, ways, rungs[i], truth).first->second;
+        if (!wanted) return {};
+        error.parts = ErrorParts{.model = truth.apart(all.finely, truth.depth()),
+                                 .subset = truth.apart(drawn[i], all.asDrawn),
+                                 .pixels = truth.apart(all.asDrawn, all.finely)};
     }
     return told;
 }

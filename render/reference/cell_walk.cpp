@@ -2,7 +2,11 @@
 
 namespace render {
 
-CellWalk::CellWalk(const PlacedPoints& placed) : size_(placed.size() + 1u) {
+CellWalk::CellWalk(const PlacedPoints& placed)
+    : CellWalk(placed, 0, std::size_t{placed.size().z} + 1) {}
+
+CellWalk::CellWalk(const PlacedPoints& placed, std::size_t first, std::size_t end)
+    : size_(placed.size() + 1u), first_(0, 0, first), end_(size_.x, size_.y, end) {
     for (std::size_t a = 0; a < 3; ++a) {
         const auto &at = placed.positions()[a], &width = placed.widths()[a];
         const double half = at.front() > at.back() ? -0.5 : 0.5;
@@ -19,7 +23,7 @@ std::size_t CellWalk::cellAt(int axis, double place) const {
     const auto isPassed = [&](double face) { return down ? face >= place : face <= place; };
     const auto passed = std::ranges::partition_point(faces, isPassed) - faces.begin();
     return static_cast<std::size_t>(
-        std::clamp<std::ptrdiff_t>(passed - 1, 0, std::ssize(faces) - 2));
+        std::clamp<std::ptrdiff_t>(passed - 1, first_[axis], std::ptrdiff_t{end_[axis]} - 1));
 }
 
 }  // namespace render

@@ -18,8 +18,10 @@ namespace render {
 class CellWalk {
  public:
     explicit CellWalk(const PlacedPoints& placed);
+    // Of its cells those alone that are [first, end) along the last axis.
+    CellWalk(const PlacedPoints& placed, std::size_t first, std::size_t end);
 
-    glm::uvec3 size() const { return size_; }  // cells along the axes
+    glm::uvec3 size() const { return size_; }  // cells along the axes, all of them
     // A place counted from the cell's first corner, in units of its sides: [0, 1] inside.
     glm::dvec3 inCell(const glm::uvec3& cell, const glm::dvec3& place) const {
         glm::dvec3 out(0);
@@ -50,6 +52,7 @@ class CellWalk {
     // Per axis, in the order of indices, ascending or descending: one more than cells.
     std::array<std::vector<double>, 3> faces_;
     glm::uvec3 size_{0};
+    glm::uvec3 first_{0}, end_{0};  // cells that are walked through
 };
 
 template <typename Visit>
@@ -57,7 +60,7 @@ void CellWalk::operator()(const glm::dvec3& eye, const glm::dvec3& along, double
                           const Visit& visit) const {
     double at = near, end = kNever;
     for (int a = 0; a < 3; ++a) {
-        const double one = face(a, 0), other = face(a, size_[a]);
+        const double one = face(a, first_[a]), other = face(a, end_[a]);
         if (along[a] == 0) {
             if (!(eye[a] > std::min(one, other) && eye[a] < std::max(one, other))) return;
             continue;
@@ -75,7 +78,7 @@ void CellWalk::operator()(const glm::dvec3& eye, const glm::dvec3& along, double
                along[a];
     };
     const auto isLast = [&](int a) {
-        return cell[a] == (up[static_cast<std::size_t>(a)] ? size_[a] - 1 : 0);
+        return cell[a] == (up[static_cast<std::size_t>(a)] ? end_[a] - 1 : first_[a]);
     };
     for (int a = 0; a < 3; ++a) {
         cell[a] = static_cast<unsigned>(cellAt(a, eye[a] + at * along[a]));

@@ -94,12 +94,14 @@ void forEachPieceOf(unsigned octants, const glm::dvec3& from, const glm::dvec3& 
 
 }  // namespace
 
-IntervalCells::IntervalCells(const timeseries::Field& field, const IndexBox& clip,
+IntervalCells::IntervalCells(const timeseries::FieldSlab& slab, const IndexBox& clip,
                              std::vector<Interval<double>> ranges, unsigned threads, Look look,
                              OpacityPer per)
-    : field_(field), clip_(clip), ranges_(std::move(ranges)), per_(per) {
-    const auto points = field.grid->size();
-    size_ = glm::uvec3(points[0], points[1], points[2]) + 1u;
+    : slab_(slab),
+      clip_(clip),
+      ranges_(std::move(ranges)),
+      per_(per),
+      size_(glm::uvec3(slab.points[0], slab.points[1], slab.points[2]) + 1u) {
     if (look == Look::WhenAsked) return;
     kinds_.resize(std::size_t{size_.x} * size_.y * size_.z);
     inParts(std::size_t{size_.y} * size_.z, threads, [&](std::size_t first, std::size_t last) {
@@ -113,6 +115,7 @@ IntervalCells::IntervalCells(const timeseries::Field& field, const IndexBox& cli
 
 IntervalCells::Corners IntervalCells::cornersOf(const glm::uvec3& cell) const {
     const glm::uvec3 points = size_ - 1u;
+    const std::vector<bool>& missing = slab_.values.missing;
     Corners out{.least = kInfinity, .greatest = -kInfinity};
     std::visit(
         [&](const auto& values) {
@@ -120,9 +123,8 @@ IntervalCells::Corners IntervalCells::cornersOf(const glm::uvec3& cell) const {
                 const glm::uvec3 p(pointBeside(cell.x, c & 1, points.x),
                                    pointBeside(cell.y, c >> 1 & 1, points.y),
                                    pointBeside(cell.z, c >> 2, points.z));
-                const std::size_t i =
-                    p.x + std::size_t{points.x} * (p.y + std::size_t{points.y} * p.z);
-                const bool isMissing = !field_.missing.empty() && field_.missing[i];
+                const std::size_t i = slab_.indexOf(p.x, p.y, p.z);
+                const bool isMissing = !missing.empty() && missing[i];
                 const double v = isMissing ? kNan : finiteOrNan(static_cast<double>(values[i]));
                 out.values[c] = v;
                 if (std::isnan(v)) continue;
@@ -131,7 +133,7 @@ IntervalCells::Corners IntervalCells::cornersOf(const glm::uvec3& cell) const {
                 if (clip_.holds(p)) out.octants |= 1u << c;
             }
         },
-        field_.values);
+        slab_.values.values);
     fillGaps(out.values);
     return out;
 }
@@ -145,7 +147,7 @@ IntervalCells::Corners IntervalCells::scaledCornersOf(const glm::uvec3& cell) co
 }
 
 bool IntervalCells::isBeyond(const glm::uvec3& cell) const {
-    if (!field_.missing.empty()) return false;
+    if (!slab_.values.missing.empty()) return false;
     const glm::uvec3 points = size_ - 1u;
     const glm::uvec3 from = glm::max(cell, 1u) - 1u, to = glm::min(cell + 1u, points) - 1u;
     return std::visit(
@@ -154,7 +156,7 @@ bool IntervalCells::isBeyond(const glm::uvec3& cell) const {
             double sum = 0;  // finite where all are, or too large to tell
             for (const unsigned z : {from.z, to.z})
                 for (const unsigned y : {from.y, to.y}) {
-                    const T* row = &values[points.x * (y + std::size_t{points.y} * z)];
+                    const T* row = &values[slab_.indexOf(0, y, z)];
                     for (const T v : {row[from.x], row[to.x]}) {
                         least = std::min(least, v);
                         greatest = std::max(greatest, v);
@@ -167,7 +169,7 @@ bool IntervalCells::isBeyond(const glm::uvec3& cell) const {
                 return lo <= range.hi && hi >= range.lo;
             });
         },
-        field_.values);
+        slab_.values.values);
 }
 
 IntervalCells::Kind IntervalCells::kindOf(const Corners& corners) const {

@@ -15,19 +15,20 @@
 #include "render/points/placed_points.h"
 #include "render/reference/cubic_on_line.h"
 #include "render/together.h"
-#include "timeseries/grid/field.h"
+#include "timeseries/index/field_slabs.h"
 #include "timeseries/index/range_set.h"
 
 namespace render {
 
-// The field must outlive it.
+// The slab's values must outlive it; only its cells may be asked for.
 class IntervalCells {
  public:
     // For every ray of a picture each cell is looked at once, before; for a few rays, when one
     // comes to it. Memory: a byte a cell, or none.
     enum class Look { Before, WhenAsked };
     // `ranges`: disjoint, as timeseries::betweenPoints gives them.
-    IntervalCells(const timeseries::Field& field, const IndexBox& clip,
+    // REQUIRES of Look::Before: all cells.
+    IntervalCells(const timeseries::FieldSlab& slab, const IndexBox& clip,
                   std::vector<timeseries::Interval<double>> ranges,
                   unsigned threads = sharingThreads(), Look look = Look::Before,
                   OpacityPer per = OpacityPer::Length);
@@ -109,7 +110,7 @@ class IntervalCells {
         return cell.x + std::size_t{size_.x} * (cell.y + std::size_t{size_.y} * cell.z);
     }
 
-    const timeseries::Field& field_;
+    timeseries::FieldSlab slab_;
     IndexBox clip_;
     std::vector<timeseries::Interval<double>> ranges_;
     OpacityPer per_;

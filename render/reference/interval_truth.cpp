@@ -50,8 +50,17 @@ struct LightWork {
 
 }  // namespace
 
+std::vector<glm::dvec2> placesOfRays(int across) {
+    std::vector<glm::dvec2> places;
+    for (int y = 0; y < across; ++y)
+        for (int x = 0; x < across; ++x)
+            places.push_back((glm::dvec2(x, y) + 0.5) / static_cast<double>(across));
+    return places;
+}
+
 template <typename Pixel, typename Work, typename Sum>
 std::vector<Pixel> IntervalTruth::meanOfRays(const View& view, std::span<const glm::ivec2> pixels,
+                                             std::span<const glm::dvec2> places,
                                              const Sum& sum) const {
     constexpr std::size_t kAtOnce = 64;
     const PixelRays rays = besideFaces(pixelRays(scene_.placed.inAxes(view)));
@@ -67,24 +76,24 @@ std::vector<Pixel> IntervalTruth::meanOfRays(const View& view, std::span<const g
         for (std::size_t first; (first = next.fetch_add(kAtOnce)) < pixels.size();)
             for (std::size_t p = first; p < std::min(first + kAtOnce, pixels.size()); ++p) {
                 Pixel all(0);
-                for (int j = 0; j < raysAcross_; ++j)
-                    for (int i = 0; i < raysAcross_; ++i)
-                        all += sum(rayAt(glm::dvec2(pixels[p]) +
-                                         (glm::dvec2(i, j) + 0.5) / double(raysAcross_)),
-                                   work);
-                means[p] = all / static_cast<double>(raysAcross_ * raysAcross_);
+                for (const glm::dvec2& place : places)
+                    all += sum(rayAt(glm::dvec2(pixels[p]) + place), work);
+                means[p] = all / static_cast<double>(places.size());
             }
     });
     return means;
 }
 
-IntervalTruth::IntervalTruth(const Scene& scene, const timeseries::Field& field, int raysAcross,
+IntervalTruth::IntervalTruth(const Scene& scene, const timeseries::FieldSlab& slab, int raysAcross,
                              unsigned threads, IntervalCells::Look look)
-    : scene_(scene), field_(field), raysAcross_(raysAcross), threads_(std::max(threads, 1u)) {
+    : scene_(scene),
+      slab_(slab),
+      places_(placesOfRays(raysAcross)),
+      threads_(std::max(threads, 1u)) {
     if (scene.placed.isMesh()) return;
-    walk_.emplace(scene.placed);
+    walk_.emplace(scene.placed, slab.firstCell, slab.endCell);
     for (const Layer& layer : scene.layers)
-        layers_.emplace_back(field, scene.clip, layer.cells.ranges, threads_, look,
+        layers_.emplace_back(slab, scene.clip, layer.cells.ranges, threads_, look,
                              opacityPerOf(scene, layer));
 }
 
@@ -115,18 +124,19 @@ double IntervalTruth::weight(const Ray& ray, std::size_t layer, WeightWork& work
 }
 
 std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer) const {
-    return weight(view, layer, allPixels(view.size));
+    return weight(view, layer, allPixels(view.size), places_);
 }
 
 std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer,
-                                          std::span<const glm::ivec2> pixels) const {
-    if (!walk_) return meshWeight(scene_, field_, view, layer, pixels, raysAcross_, threads_);
+                                          std::span<const glm::ivec2> pixels,
+                                          std::span<const glm::dvec2> places) const {
+    if (!walk_) return meshWeight(scene_, slab_.values, view, layer, pixels, places, threads_);
     return meanOfRays<double, WeightWork>(
-        view, pixels, [&](const Ray& ray, auto& work) { return weight(ray, layer, work); });
+        view, pixels, places, [&](const Ray& ray, auto& work) { return weight(ray, layer, work); });
 }
 
 std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
-    if (!walk_) return meshLight(scene_, field_, view, raysAcross_, threads_);
+    if (!walk_) return meshLight(scene_, slab_.values, view, places_, threads_);
     const auto collect = [&](const Through& way, LightWork& work) {
         work.ofLayers.clear();
         work.ends.clear();
@@ -193,7 +203,7 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
                      work);
     };
     return meanOfRays<glm::dvec4, LightWork>(
-        view, allPixels(view.size), [&](const Ray& ray, LightWork& work) {
+        view, allPixels(view.size), places_, [&](const Ray& ray, LightWork& work) {
             if (!work.seen) work.seen.emplace(scene_.layers);
             LightOnRay& seen = *work.seen;
             seen.begin();

@@ -19,12 +19,16 @@
 
 namespace render {
 
-// Of what the scene shows, its layers' ranges between points, clip box and styles count. `field` is
-// the scene's, in the grid's order, and must outlive this, as the scene.
+// Where rays of a pixel pass it, [0, 1] each way: n x n, regularly spaced.
+std::vector<glm::dvec2> placesOfRays(int across);
+
+// Of what the scene shows, its layers' ranges between points, clip box and styles count. `slab` is
+// of the scene's field, in the grid's order, and its values must outlive this, as the scene; what
+// rays have in other cells counts for nothing.
 class IntervalTruth {
  public:
     // REQUIRES: raysAcross > 0; layers whose `cells.ranges` are there.
-    IntervalTruth(const Scene& scene, const timeseries::Field& field, int raysAcross,
+    IntervalTruth(const Scene& scene, const timeseries::FieldSlab& slab, int raysAcross,
                   unsigned threads = sharingThreads(),
                   IntervalCells::Look look = IntervalCells::Look::Before);
 
@@ -32,9 +36,10 @@ class IntervalTruth {
     // in units of l, or what the scene's opacityPer makes of it where it is drawn by cells, from
     // the near plane on. [y][x], row 0 at the bottom. Not a bit depends on the threads.
     std::vector<double> weight(const View& view, std::size_t layer) const;
-    // The plane W at these pixels alone.
+    // The plane W at these pixels alone, of the rays at these places in each.
     std::vector<double> weight(const View& view, std::size_t layer,
-                               std::span<const glm::ivec2> pixels) const;
+                               std::span<const glm::ivec2> pixels,
+                               std::span<const glm::dvec2> places) const;
     // The light of all layers, ordered: emission and absorption along each ray, of optical depth
     // opticalDepthPerWeight(opacity) a unit of W and of the colour that the field's value has
     // there, lit as its gradient has it where the scene has light, which REQUIRES scene.cells.
@@ -46,10 +51,10 @@ class IntervalTruth {
         glm::dvec3 eye, along;  // axis coordinates; a unit of t is one of view depth
         double near, weight;    // where it begins; W of a unit of t
     };
-    // The mean over each pixel's rays of sum(ray, work); each thread has a `Work`.
+    // The mean over rays at these places in each pixel of sum(ray, work); each thread has a `Work`.
     template <typename Pixel, typename Work, typename Sum>
     std::vector<Pixel> meanOfRays(const View& view, std::span<const glm::ivec2> pixels,
-                                  const Sum& sum) const;
+                                  std::span<const glm::dvec2> places, const Sum& sum) const;
     struct WeightWork {
         std::vector<LinePart> parts;
         IntervalCells::Lately lately;
@@ -57,8 +62,8 @@ class IntervalTruth {
     double weight(const Ray& ray, std::size_t layer, WeightWork& work) const;
 
     const Scene& scene_;
-    const timeseries::Field& field_;
-    int raysAcross_;
+    timeseries::FieldSlab slab_;
+    std::vector<glm::dvec2> places_;
     unsigned threads_;
     std::optional<CellWalk> walk_;  // none of a mesh
     std::vector<IntervalCells> layers_;

@@ -5,9 +5,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 #include <tuple>
-#include <vector>
 
-#include "render/reference/parts_on_rays.h"
 #include "render/splat/cell_pieces.h"
 
 namespace render {
@@ -24,22 +22,37 @@ void orderAsDrawn(const CellRank& rank, bool isMesh, std::vector<PartInLayer>& p
 
 }  // namespace
 
-double orderError(const Scene& scene, const timeseries::Field& field, const View& view,
-                  std::span<const glm::ivec2> pixels, std::span<const double> weights,
-                  unsigned threads) {
-    const bool isMixed = scene.order == Order::None;
-    if (areOneColor(scene.layers) || (!isMixed && !scene.cells)) return 0;
+OrderError::OrderError(const Scene& scene, const View& view, std::span<const glm::ivec2> pixels,
+                       std::span<const double> weights, unsigned threads)
+    : scene_(scene),
+      view_(view),
+      pixels_(pixels),
+      weights_(weights),
+      threads_(threads),
+      parts_(pixels.size()) {}
+
+bool OrderError::isNone() const {
+    return areOneColor(scene_.layers) || (scene_.order != Order::None && !scene_.cells);
+}
+
+void OrderError::add(const timeseries::FieldSlab& slab) {
+    if (!isNone()) addPartsOnRays(scene_, slab, view_, pixels_, threads_, parts_);
+}
+
+double OrderError::error() const {
+    if (isNone()) return 0;
     std::optional<CellRank> rank;
-    if (!isMixed) rank.emplace(scene, view);
-    LightOfParts light(scene.layers);
+    if (scene_.order != Order::None) rank.emplace(scene_, view_);
+    LightOfParts light(scene_.layers);
     double errors = 0, all = 0;
-    auto rays = partsOnRays(scene, field, view, pixels, threads);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const glm::dvec3 exact(light.inOrder(rays[i]));
-        if (rank) orderAsDrawn(*rank, scene.placed.isMesh(), rays[i]);
-        const glm::dvec3 drawn(rank ? light.oneByOne(rays[i]) : light.mixed(rays[i]));
-        errors += weights[i] * glm::dot(drawn - exact, drawn - exact);
-        all += weights[i] * glm::dot(exact, exact);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        std::vector<PartInLayer> parts = parts_[i];
+        orderAlongRay(parts);
+        const glm::dvec3 exact(light.inOrder(parts));
+        if (rank) orderAsDrawn(*rank, scene_.placed.isMesh(), parts);
+        const glm::dvec3 drawn(rank ? light.oneByOne(parts) : light.mixed(parts));
+        errors += weights_[i] * glm::dot(drawn - exact, drawn - exact);
+        all += weights_[i] * glm::dot(exact, exact);
     }
     return errors == 0 ? 0 : std::sqrt(errors / all);
 }

@@ -6,11 +6,13 @@
 
 #include <glm/vec2.hpp>
 #include <span>
+#include <vector>
 
 #include "render/model/scene.h"
 #include "render/points/view.h"
+#include "render/reference/parts_on_rays.h"
 #include "render/together.h"
-#include "timeseries/grid/field.h"
+#include "timeseries/index/field_slabs.h"
 
 namespace render {
 
@@ -19,10 +21,26 @@ namespace render {
 // `exact`: emission and absorption along the ray. `drawn`: mixed by optical depth, of a scene
 // without order; of cells in order one cell after another, in it one layer after another. 0 of one
 // colour, which is the same in any order; and of points in order, whose distances are told apart to
-// a four millionth of the box. `field`: the scene's, in the grid's order. The same for any number
-// of threads.
-double orderError(const Scene& scene, const timeseries::Field& field, const View& view,
-                  std::span<const glm::ivec2> pixels, std::span<const double> weights,
-                  unsigned threads = sharingThreads());
+// a four millionth of the box. The same for any number of threads.
+class OrderError {
+ public:
+    // These must outlive this.
+    OrderError(const Scene& scene, const View& view, std::span<const glm::ivec2> pixels,
+               std::span<const double> weights, unsigned threads = sharingThreads());
+    // Each slab of the scene's field, in the grid's order, once.
+    void add(const timeseries::FieldSlab& slab);
+    // Of what was added.
+    double error() const;
+
+ private:
+    bool isNone() const;
+
+    const Scene& scene_;
+    const View& view_;
+    std::span<const glm::ivec2> pixels_;
+    std::span<const double> weights_;
+    unsigned threads_;
+    std::vector<std::vector<PartInLayer>> parts_;  // [pixel]
+};
 
 }  // namespace render

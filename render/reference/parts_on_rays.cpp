@@ -23,10 +23,9 @@ std::size_t rangeOf(const Layer& layer, double value) {
     return static_cast<std::size_t>(std::ranges::find_if(ranges, holds) - ranges.begin());
 }
 
-std::vector<std::vector<PartInLayer>> partsOfMesh(const Scene& scene,
-                                                  const timeseries::Field& field, const View& view,
-                                                  std::span<const glm::ivec2> pixels,
-                                                  unsigned threads) {
+void addPartsOfMesh(const Scene& scene, const timeseries::Field& field, const View& view,
+                    std::span<const glm::ivec2> pixels, unsigned threads,
+                    std::span<std::vector<PartInLayer>> into) {
     struct OfPixel {
         std::size_t pixel;
         PartInLayer part;
@@ -42,10 +41,8 @@ std::vector<std::vector<PartInLayer>> partsOfMesh(const Scene& scene,
                 found[part].push_back(
                     {pixel, partInLayer(scene, layer, cell, *in, lengthPerDepth(seen, window))});
         });
-    std::vector<std::vector<PartInLayer>> parts(pixels.size());
     for (const auto& some : found)
-        for (const OfPixel& each : some) parts[each.pixel].push_back(each.part);
-    return parts;
+        for (const OfPixel& each : some) into[each.pixel].push_back(each.part);
 }
 
 }  // namespace
@@ -68,10 +65,12 @@ PartInLayer partInLayer(const Scene& scene, std::size_t layer, std::uint32_t cel
             {}};
 }
 
-CellRays::CellRays(const Scene& scene, const timeseries::Field& field, const View& view)
-    : scene_(scene), walk_(scene.placed), rays_(besideFaces(pixelRays(scene.placed.inAxes(view)))) {
+CellRays::CellRays(const Scene& scene, const timeseries::FieldSlab& slab, const View& view)
+    : scene_(scene),
+      walk_(scene.placed, slab.firstCell, slab.endCell),
+      rays_(besideFaces(pixelRays(scene.placed.inAxes(view)))) {
     for (const Layer& layer : scene.layers)
-        layers_.emplace_back(field, scene.clip, layer.cells.ranges, 1,
+        layers_.emplace_back(slab, scene.clip, layer.cells.ranges, 1,
                              IntervalCells::Look::WhenAsked);
 }
 
@@ -118,24 +117,23 @@ double CellRays::valueAt(std::size_t layer, std::uint32_t cell, const glm::dvec3
     return layers_[layer].valueAt(timeseries::indicesOf(cell, walk_.size()), place);
 }
 
-std::vector<std::vector<PartInLayer>> partsOnRays(const Scene& scene,
-                                                  const timeseries::Field& field, const View& view,
-                                                  std::span<const glm::ivec2> pixels,
-                                                  unsigned threads) {
-    std::vector<std::vector<PartInLayer>> parts(pixels.size());
-    if (scene.placed.isMesh()) {
-        parts = partsOfMesh(scene, field, view, pixels, threads);
-    } else {
-        const CellRays rays(scene, field, view);
-        std::atomic<std::size_t> next{0};
-        together(threads, [&](unsigned) {
-            for (std::size_t i; (i = next++) < pixels.size();)
-                parts[i] = rays.partsOn(glm::dvec2(pixels[i]) + 0.5);
-        });
-    }
-    for (auto& ofRay : parts)
-        std::ranges::stable_sort(ofRay, {}, [](const PartInLayer& p) { return p.part.from; });
-    return parts;
+void addPartsOnRays(const Scene& scene, const timeseries::FieldSlab& slab, const View& view,
+                    std::span<const glm::ivec2> pixels, unsigned threads,
+                    std::span<std::vector<PartInLayer>> into) {
+    if (scene.placed.isMesh())
+        return addPartsOfMesh(scene, slab.values, view, pixels, threads, into);
+    const CellRays rays(scene, slab, view);
+    std::atomic<std::size_t> next{0};
+    together(threads, [&](unsigned) {
+        for (std::size_t i; (i = next++) < pixels.size();) {
+            const auto parts = rays.partsOn(glm::dvec2(pixels[i]) + 0.5);
+            into[i].insert(into[i].end(), parts.begin(), parts.end());
+        }
+    });
+}
+
+void orderAlongRay(std::vector<PartInLayer>& parts) {
+    std::ranges::stable_sort(parts, {}, [](const PartInLayer& p) { return p.part.from; });
 }
 
 glm::dvec4 LightOfParts::inOrder(std::span<const PartInLayer> parts) {

@@ -33,9 +33,10 @@ PartInLayer partInLayer(const Scene& scene, std::size_t layer, std::uint32_t cel
 // Rays of a view through an upright grid.
 class CellRays {
  public:
-    // The scene and its field, in the grid's order, must outlive this.
-    CellRays(const Scene& scene, const timeseries::Field& field, const View& view);
-    // Of the ray at a window position: cell after cell from the eye on, in each layer after layer.
+    // The scene and the slab's values, of its field in the grid's order, must outlive this.
+    CellRays(const Scene& scene, const timeseries::FieldSlab& slab, const View& view);
+    // Of the ray at a window position: of the slab's cells one after another from the eye on, in
+    // each layer after layer.
     std::vector<PartInLayer> partsOn(const glm::dvec2& window) const;
     // Where in a cell, [0, 1] along each axis, that ray is at a view depth.
     glm::dvec3 placeIn(std::uint32_t cell, const glm::dvec2& window, double depth) const;
@@ -52,11 +53,13 @@ class CellRays {
     std::vector<IntervalCells> layers_;
 };
 
-// Of each pixel's own ray, those that begin first first. Not a bit depends on the threads.
-std::vector<std::vector<PartInLayer>> partsOnRays(const Scene& scene,
-                                                  const timeseries::Field& field, const View& view,
-                                                  std::span<const glm::ivec2> pixels,
-                                                  unsigned threads);
+// Adds, of each pixel's own ray, those in the slab's cells. Not a bit depends on the threads.
+// REQUIRES: as many in `into` as pixels.
+void addPartsOnRays(const Scene& scene, const timeseries::FieldSlab& slab, const View& view,
+                    std::span<const glm::ivec2> pixels, unsigned threads,
+                    std::span<std::vector<PartInLayer>> into);
+// Those that begin first first.
+void orderAlongRay(std::vector<PartInLayer>& parts);
 
 // The light of one ray's parts: premultiplied, linear.
 class LightOfParts {

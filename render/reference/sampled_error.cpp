@@ -12,6 +12,9 @@
 namespace render {
 namespace {
 
+// Of few rays, beside an error: it makes that larger by a fiftieth, then.
+constexpr double kNoise = 0.2;
+
 // Of so many pixels some, one at random from each of as many equal stretches: of a picture's rows,
 // so that they lie all over it.
 std::vector<glm::ivec2> sampleOf(const std::vector<glm::ivec2>& all, std::size_t count,
@@ -74,12 +77,20 @@ DepthAt enlarged(DepthAt coarse, int across, glm::ivec2 size) {
     };
 }
 
-SampledTruth::SampledTruth(const Scene& scene, const timeseries::Field& field, const View& view,
-                           const DepthAt& first, const Sampling& sampling) {
+SampledTruth::SampledTruth(const Scene& scene, const View& view, const DepthAt& first,
+                           const Sampling& sampling)
+    : scene_(scene), view_(view), raysAcross_(sampling.raysAcross), threads_(sampling.threads) {
+    choosePixels(first, sampling);
+    choosePlaces(sampling.raysAcross);
+    depth_.resize(pixels_.size());
+    for (Group* group : {&quarter_[0], &quarter_[1], &rest_}) group->depth.resize(pixels_.size());
+}
+
+void SampledTruth::choosePixels(const DepthAt& first, const Sampling& sampling) {
     std::mt19937 random(1);  // one picture, one figure
     std::vector<glm::ivec2> shown, rest;
     {
-        const std::vector<glm::ivec2> all = pixelsOf(coveredPixels(scene, view));
+        const std::vector<glm::ivec2> all = pixelsOf(coveredPixels(scene_, view_));
         for (std::size_t count = sampling.asked; true; count *= 4) {
             const std::vector<glm::ivec2> asked = sampleOf(all, count, random);
             const std::vector<double> depth = first(asked);
@@ -102,15 +113,61 @@ SampledTruth::SampledTruth(const Scene& scene, const timeseries::Field& field, c
     const std::size_t half = sampling.pixels / 2, beside = std::min(rest.size(), half);
     add(shown, sampling.pixels - beside);
     add(rest, std::max(beside, sampling.pixels - std::min(sampling.pixels, shown.size())));
+}
 
-    const IntervalTruth truth(scene, field, sampling.raysAcross, sampling.threads,
-                              IntervalCells::Look::WhenAsked);
-    depth_.resize(pixels_.size());
-    for (std::size_t k = 0; k < scene.layers.size(); ++k) {
-        const double perWeight = opticalDepthPerWeight(scene.layers[k].style.opacity);
-        const std::vector<double> weight = truth.weight(view, k, pixels_);
-        for (std::size_t i = 0; i < depth_.size(); ++i) depth_[i] += perWeight * weight[i];
+// Of four rays that are neighbours one, of another corner each time, so that each row and column
+// has as many; every second one of these is a half.
+void SampledTruth::choosePlaces(int across) {
+    const std::vector<glm::dvec2> all = placesOfRays(across);
+    if (scene_.placed.isMesh() || across % 4 != 0) {
+        quarter_[0].places = all;
+        return;
     }
+    for (int y = 0; y < across; ++y)
+        for (int x = 0; x < across; ++x) {
+            const int column = x / 2, row = y / 2;
+            const bool isChosen = x % 2 == row % 2 && y % 2 == column % 2;
+            (isChosen ? quarter_[static_cast<std::size_t>((column + row) % 2)] : rest_)
+                .places.push_back(all[static_cast<std::size_t>(y * across + x)]);
+        }
+}
+
+void SampledTruth::add(const timeseries::FieldSlab& slab, Rays rays) {
+    const IntervalTruth truth(scene_, slab, raysAcross_, threads_, IntervalCells::Look::WhenAsked);
+    const auto addTo = [&](Group& group) {
+        if (group.places.empty()) return;
+        for (std::size_t k = 0; k < scene_.layers.size(); ++k) {
+            const double perWeight = opticalDepthPerWeight(scene_.layers[k].style.opacity);
+            const auto weight = truth.weight(view_, k, pixels_, group.places);
+            for (std::size_t i = 0; i < weight.size(); ++i) group.depth[i] += perWeight * weight[i];
+        }
+    };
+    hasRest_ = rays == Rays::Rest;
+    if (hasRest_)
+        addTo(rest_);
+    else
+        std::ranges::for_each(quarter_, addTo);
+    average();
+}
+
+void SampledTruth::average() {
+    std::ranges::fill(depth_, 0);
+    std::size_t rays = 0;
+    for (const Group* group : {&quarter_[0], &quarter_[1], &rest_}) {
+        if (group == &rest_ && !hasRest_) continue;
+        rays += group->places.size();
+        for (std::size_t i = 0; i < depth_.size(); ++i)
+            depth_[i] += static_cast<double>(group->places.size()) * group->depth[i];
+    }
+    for (double& depth : depth_) depth /= static_cast<double>(rays);
+}
+
+bool SampledTruth::wantsRest(double error) const {
+    if (rest_.places.empty() || hasRest_) return false;
+    // Of the mean of both, by chance alone: to be added to the error in squares.
+    const double noise = 0.5 * apart(quarter_[0].depth, quarter_[1].depth);
+    const bool seesNothing = std::ranges::none_of(depth_, [](double depth) { return depth > 0; });
+    return seesNothing || !(noise <= kNoise * error);
 }
 
 double SampledTruth::apart(std::span<const double> a, std::span<const double> b) const {

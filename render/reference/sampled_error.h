@@ -2,6 +2,7 @@
 // of its pixels: so soon that every picture at rest can say it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <glm/vec2.hpp>
@@ -12,7 +13,7 @@
 #include "render/model/scene.h"
 #include "render/points/view.h"
 #include "render/together.h"
-#include "timeseries/grid/field.h"
+#include "timeseries/index/field_slabs.h"
 
 namespace render {
 
@@ -42,14 +43,27 @@ struct Sampling {
 // depends on the threads.
 class SampledTruth {
  public:
-    // `first`: of the picture that chooses the pixels. `field`: the scene's, in the grid's order.
+    // A quarter of a pixel's rays tells most errors as well as all do: how far its halves are apart
+    // tells whether it does.
+    enum class Rays { Quarter, Rest };
+
+    // `first`: of the picture that chooses the pixels. The scene and the view must outlive this.
     // REQUIRES: layers whose `cells.ranges` are there.
-    SampledTruth(const Scene& scene, const timeseries::Field& field, const View& view,
-                 const DepthAt& first, const Sampling& sampling = {});
+    SampledTruth(const Scene& scene, const View& view, const DepthAt& first,
+                 const Sampling& sampling = {});
 
     std::span<const glm::ivec2> pixels() const { return pixels_; }
     // For how many of the picture's pixels each stands.
     std::span<const double> weights() const { return weights_; }
+
+    // Each slab of the scene's field, in the grid's order, once for each of the rays that are
+    // asked; Quarter has all of them where these cannot be parted, as of a mesh.
+    void add(const timeseries::FieldSlab& slab, Rays rays);
+    // Whether the rest may change such an error by more than a fiftieth of it. REQUIRES: the
+    // quarter has been added, of all slabs.
+    bool wantsRest(double error) const;
+
+    // Of what was added.
     std::span<const double> depth() const { return depth_; }
     // sqrt( sum w (a - b)^2 / sum w truth^2 ) of optical depths at these pixels, which are there in
     // their order; against depth() itself an error's relative L2: 0 where both are
@@ -57,8 +71,23 @@ class SampledTruth {
     double apart(std::span<const double> a, std::span<const double> b) const;
 
  private:
+    struct Group {
+        std::vector<glm::dvec2> places = {};  // of rays in a pixel
+        std::vector<double> depth = {};       // [pixel], the mean of these
+    };
+    void choosePixels(const DepthAt& first, const Sampling& sampling);
+    void choosePlaces(int across);
+    void average();
+
+    const Scene& scene_;
+    const View& view_;
+    int raysAcross_;
+    unsigned threads_;
     std::vector<glm::ivec2> pixels_;
     std::vector<double> weights_, depth_;
+    std::array<Group, 2> quarter_;  // its halves, of which one may be empty
+    Group rest_;
+    bool hasRest_ = false;
 };
 
 }  // namespace render

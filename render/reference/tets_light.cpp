@@ -19,33 +19,26 @@ struct PassedPart {
     PartInLayer part;
 };
 
-// Where a ray of a pixel is.
-glm::dvec2 windowOf(const glm::ivec2& pixel, std::uint32_t ray, int raysAcross) {
-    const auto across = static_cast<std::uint32_t>(raysAcross);
-    return glm::dvec2(pixel) + (glm::dvec2(ray % across, ray / across) + 0.5) / double(raysAcross);
-}
-
 std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& field,
                                  const PointsView& seen, glm::ivec2 size,
-                                 std::span<const glm::ivec2> pixels, int raysAcross,
-                                 unsigned threads) {
+                                 std::span<const glm::ivec2> pixels,
+                                 std::span<const glm::dvec2> places, unsigned threads) {
     std::vector<std::vector<PassedPart>> parts(kCellParts);
     const double steepness = steepnessOf(scene);
-    const auto across = static_cast<std::uint32_t>(raysAcross);
     forEachTetSplat(scene, field, seen, PixelBins(pixels, size), threads,
                     scene.cells ? scene.opacityPer : OpacityPer::Length,
                     [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron&,
                         const TetSplat<double>& s, std::size_t layer, std::size_t pixel) {
                         const double perWeight =
                             opticalDepthPerWeight(scene.layers[layer].style.opacity);
-                        for (std::uint32_t ray = 0; ray < across * across; ++ray) {
-                            const glm::dvec2 window = windowOf(pixels[pixel], ray, raysAcross);
+                        for (std::size_t ray = 0; ray < places.size(); ++ray) {
+                            const glm::dvec2 window = glm::dvec2(pixels[pixel]) + places[ray];
                             const auto in = partOnRay(seen, s, window);
                             if (!in) continue;
                             const double weight = passageOf(s, *in, lengthPerDepth(seen, window));
                             const glm::dvec3 way = seen.rays.along(window - seen.rays.centre);
                             parts[part].push_back(
-                                {static_cast<std::uint32_t>(pixel) * across * across + ray,
+                                {static_cast<std::uint32_t>(pixel * places.size() + ray),
                                  {.layer = static_cast<std::uint32_t>(layer),
                                   .part = *in,
                                   .opticalDepth = perWeight * weight,
@@ -64,9 +57,9 @@ std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& fi
 }  // namespace
 
 std::vector<glm::dvec4> meshLight(const Scene& scene, const timeseries::Field& field,
-                                  const View& view, int raysAcross, unsigned threads) {
+                                  const View& view, std::span<const glm::dvec2> places,
+                                  unsigned threads) {
     const CellsView seen(scene.placed, view);
-    const auto rays = static_cast<std::uint32_t>(raysAcross * raysAcross);
     std::vector<glm::dvec4> light(static_cast<std::size_t>(view.size.x) *
                                   static_cast<std::size_t>(view.size.y));
     LightOfParts lightOf(scene.layers);
@@ -77,16 +70,15 @@ std::vector<glm::dvec4> meshLight(const Scene& scene, const timeseries::Field& f
             for (int y = top; y < std::min(top + kSquareOfRays, view.size.y); ++y)
                 for (int x = left; x < std::min(left + kSquareOfRays, view.size.x); ++x)
                     pixels.emplace_back(x, y);
-            const auto passed =
-                passedBy(scene, field, seen, view.size, pixels, raysAcross, threads);
+            const auto passed = passedBy(scene, field, seen, view.size, pixels, places, threads);
             for (std::size_t i = 0; i < passed.size();) {
                 const std::uint32_t ray = passed[i].ray;
                 ofRay.clear();
                 for (; i < passed.size() && passed[i].ray == ray; ++i)
                     ofRay.push_back(passed[i].part);
-                const glm::ivec2 pixel = pixels[ray / rays];
+                const glm::ivec2 pixel = pixels[ray / places.size()];
                 light[static_cast<std::size_t>(pixel.y * view.size.x + pixel.x)] +=
-                    lightOf.inOrder(ofRay) / double(rays);
+                    lightOf.inOrder(ofRay) / static_cast<double>(places.size());
             }
         }
     return light;

@@ -1,7 +1,9 @@
 // The light of rays through a grid whose points lie one by one.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "render/model/scene.h"
@@ -10,9 +12,10 @@
 
 namespace render {
 
-// As IntervalTruth::light has it, of n x n rays a pixel, in tetrahedra (render/splat/solid_tets.h).
-// Not a bit depends on the threads. REQUIRES: a mesh with cells.
+// As IntervalTruth::light has it, of rays at these places in each pixel, in tetrahedra
+// (render/splat/solid_tets.h). Not a bit depends on the threads. REQUIRES: a mesh with cells.
 std::vector<glm::dvec4> meshLight(const Scene& scene, const timeseries::Field& field,
-                                  const View& view, int raysAcross, unsigned threads);
+                                  const View& view, std::span<const glm::dvec2> places,
+                                  unsigned threads);
 
 }  // namespace render

@@ -112,7 +112,7 @@ std::vector<double> addedUp(std::span<const std::vector<double>> parts) {
 
 std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& field, const View& view,
                                std::size_t layer, std::span<const glm::ivec2> pixels,
-                               int raysAcross, unsigned threads) {
+                               std::span<const glm::dvec2> places, unsigned threads) {
     const CellsView seen(scene.placed, view);
     const PixelBins bins(pixels, view.size);
     std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
@@ -126,16 +126,13 @@ std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& fiel
                              const auto s = tetSplatAt<double>(
                                  seen, {tet.at, tet.values, range.lo, range.hi, per});
                              if (!s.visible) continue;
-                             for (int j = 0; j < raysAcross; ++j)
-                                 for (int i = 0; i < raysAcross; ++i) {
-                                     const glm::dvec2 window =
-                                         glm::dvec2(pixels[pixel]) +
-                                         (glm::dvec2(i, j) + 0.5) / double(raysAcross);
-                                     if (const auto in = partOnRay(seen, s, window))
-                                         sum += passageOf(s, *in, lengthPerDepth(seen, window));
-                                 }
+                             for (const glm::dvec2& place : places) {
+                                 const glm::dvec2 window = glm::dvec2(pixels[pixel]) + place;
+                                 if (const auto in = partOnRay(seen, s, window))
+                                     sum += passageOf(s, *in, lengthPerDepth(seen, window));
+                             }
                          }
-                         parts[part][pixel] += sum / (raysAcross * raysAcross);
+                         parts[part][pixel] += sum / static_cast<double>(places.size());
                      });
     return addedUp(parts);
 }

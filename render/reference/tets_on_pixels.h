@@ -172,9 +172,10 @@ double lengthPerDepth(const PointsView& view, const glm::dvec2& window);
 // Of each pixel the sum of what all parts have, in their order.
 std::vector<double> addedUp(std::span<const std::vector<double>> parts);
 
-// The plane W of a layer of a mesh at these pixels, as IntervalTruth has it.
+// The plane W of a layer of a mesh at these pixels, of rays at these places in each, as
+// IntervalTruth has it.
 std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& field, const View& view,
                                std::size_t layer, std::span<const glm::ivec2> pixels,
-                               int raysAcross, unsigned threads);
+                               std::span<const glm::dvec2> places, unsigned threads);
 
 }  // namespace render

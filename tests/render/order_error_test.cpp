@@ -15,6 +15,13 @@ namespace {
 
 using tests::CellWorld;
 
+double orderError(const Scene& scene, const timeseries::Field& field, const View& view,
+                  std::span<const glm::ivec2> pixels, std::span<const double> weights) {
+    OrderError of(scene, view, pixels, weights, 2);
+    of.add(field);
+    return of.error();
+}
+
 // The field is x, 0 to 8, on 9^3 points; the eye looks back along it, so that high values stand in
 // front, and a unit of the field is one of length.
 struct Ramp : CellWorld {
@@ -25,7 +32,7 @@ struct Ramp : CellWorld {
     double error() const {
         const std::vector<glm::ivec2> middle{{10, 10}};
         const std::vector<double> once{1};
-        return orderError(scene, scene.cells->field(), view, middle, once, 1);
+        return orderError(scene, scene.cells->field(), view, middle, once);
     }
     glm::dvec3 color(std::size_t layer) const { return colorOf(scene.layers[layer].style, 0); }
     View view = tests::lookFrom({3, 0, 0}, {21, 21});
@@ -71,9 +78,9 @@ TEST(OrderError, IsNoneOfOneColourAndOfPointsInOrder) {
     points.scene.order = Order::BackToFront;
     const std::vector<glm::ivec2> middle{{10, 10}};
     const std::vector<double> once{1};
-    EXPECT_EQ(orderError(points.scene, field->field(), points.view, middle, once, 1), 0);
+    EXPECT_EQ(orderError(points.scene, field->field(), points.view, middle, once), 0);
     points.scene.order = Order::None;
-    EXPECT_GT(orderError(points.scene, field->field(), points.view, middle, once, 1), 0.1)
+    EXPECT_GT(orderError(points.scene, field->field(), points.view, middle, once), 0.1)
         << "points mix what the field would";
 }
 
@@ -108,10 +115,12 @@ TEST(OrderError, HoldsAgainstTheLightOfTheTruth) {
         for (int x = 0; x < view.size.x; ++x) pixels.emplace_back(x, y);
     const timeseries::Field& field = world.scene.cells->field();
     const auto truth = IntervalTruth(world.scene, field, 1).light(view);
-    const auto rays = partsOnRays(world.scene, field, view, pixels, 3);
+    std::vector<std::vector<PartInLayer>> rays(pixels.size());
+    addPartsOnRays(world.scene, field, view, pixels, 3, rays);
     LightOfParts light(world.scene.layers);
     double most = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
+        orderAlongRay(rays[i]);
         const glm::dvec4 seen = light.inOrder(rays[i]);
         // A colour along a part goes evenly, of the field as nearly.
         for (int c = 0; c < 4; ++c) ASSERT_NEAR(seen[c], truth[i][c], 1e-9) << i;
@@ -124,7 +133,7 @@ TEST(OrderError, CountsPixelsAsOftenAsTheyStandFor) {
     const Ramp ramp({"1:3", "5:6"});
     const std::vector<glm::ivec2> two{{10, 10}, {12, 11}}, one{{10, 10}};
     const auto error = [&](std::span<const glm::ivec2> pixels, std::vector<double> weights) {
-        return orderError(ramp.scene, ramp.scene.cells->field(), ramp.view, pixels, weights, 2);
+        return orderError(ramp.scene, ramp.scene.cells->field(), ramp.view, pixels, weights);
     };
     ASSERT_GT(error(two, {0, 1}), 0);
     EXPECT_NEAR(error(two, {1, 0}), error(one, {1}), 1e-15);

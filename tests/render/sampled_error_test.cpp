@@ -105,6 +105,55 @@ TEST(SampledError, NothingForSomethingIsAllWrong) {
               std::numeric_limits<double>::infinity());
 }
 
+using Rays = SampledTruth::Rays;
+
+TEST(SampledError, OfAllRaysIsTheirMean) {
+    const CellWorld world(waves(), {"0.2:0.21"}, 0.3);
+    SampledTruth truth(world.scene, kView, depthFrom(depthOf(world), kView.size), {.pixels = 300});
+    truth.add(world.scene.cells->field(), Rays::Quarter);
+    EXPECT_TRUE(truth.wantsRest(1e-9));
+    truth.add(world.scene.cells->field(), Rays::Rest);
+    EXPECT_FALSE(truth.wantsRest(1e-9));
+    const std::vector<double> mean = IntervalTruth(world.scene, world.scene.cells->field(), 8)
+                                         .weight(kView, 0, truth.pixels(), placesOfRays(8));
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        ASSERT_NEAR(truth.depth()[i], opticalDepthPerWeight(0.3) * mean[i], 1e-12) << i;
+}
+
+// Of pictures that are right, nearly and not, a range thinner than a pixel among them.
+TEST(SampledError, IsToldByAQuarterOfTheRaysWhereTheRestWouldNotChangeIt) {
+    const DepthAt wrong = depthFrom(depthOf(CellWorld(waves(), {"0.3:1.2"})), kView.size);
+    std::size_t enough = 0, tooFew = 0;
+    for (const char* range : {"0.2:1.2", "0.2:0.5", "0.2:0.21", "0.2:0.2001"}) {
+        const CellWorld world(waves(), {range}, 0.3);
+        const DepthAt right = depthFrom(depthOf(world), kView.size);
+        SampledTruth quarter(world.scene, kView, right), all = quarter;
+        quarter.add(world.scene.cells->field(), Rays::Quarter);
+        for (const Rays each : {Rays::Quarter, Rays::Rest})
+            all.add(world.scene.cells->field(), each);
+        for (const DepthAt& picture : {right, wrong}) {
+            const std::vector<double> depth = picture(all.pixels());
+            const double told = quarter.apart(depth, quarter.depth());
+            if (quarter.wantsRest(told)) {
+                ++tooFew;
+                continue;
+            }
+            ++enough;
+            const double error = all.apart(depth, all.depth());
+            EXPECT_NEAR(told, error, 0.03 * error) << range;
+        }
+    }
+    EXPECT_GE(enough, 3u);
+    EXPECT_GE(tooFew, 2u);
+}
+
+TEST(SampledError, AsksForAllRaysWhereAQuarterMeetsNothing) {
+    const CellWorld empty(waves(), {"5:6"});
+    SampledTruth truth(empty.scene, kView, depthFrom(depthOf(empty), kView.size));
+    truth.add(empty.scene.cells->field(), Rays::Quarter);
+    EXPECT_TRUE(truth.wantsRest(std::numeric_limits<double>::infinity()));
+}
+
 TEST(SampledError, DoesNotDependOnThreads) {
     const CellWorld world(waves(), {"0.2:0.5"});
     const std::vector<float> depth = depthOf(world);

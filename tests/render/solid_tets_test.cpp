@@ -322,12 +322,12 @@ TEST(SolidTets, AreTheIntervalVolumeOfTheFieldInThem) {
             for (int x = 0; x < 24; ++x) pixels.emplace_back(x, y);
         const std::vector<float> w = drawn(world.scene, view);
         const std::vector<double> depth = cellDepthAt(world.scene, view, pixels);
-        const std::vector<double> truth =
-            meshWeight(world.scene, world.scene.cells->field(), view, 0, pixels, 4, 2);
+        const std::vector<double> truth = meshWeight(world.scene, world.scene.cells->field(), view,
+                                                     0, pixels, placesOfRays(4), 2);
         Scene whole = world.scene;  // without an index all cells are looked at
         whole.cells = nullptr;
         const std::vector<double> again =
-            meshWeight(whole, world.scene.cells->field(), view, 0, pixels, 4, 2);
+            meshWeight(whole, world.scene.cells->field(), view, 0, pixels, placesOfRays(4), 2);
         const double perWeight = opticalDepthPerWeight(world.scene.layers[0].style.opacity);
         double off = 0, all = 0;
         for (std::size_t i = 0; i < pixels.size(); ++i) {

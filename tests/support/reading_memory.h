@@ -56,7 +56,7 @@ inline void expectTwiceAtMost(const std::filesystem::path& path, StepBytes bytes
         const auto reader = timeseries::openReader(std::span(&path, 1));
         const std::size_t steps = reader->variables()[variable].time->points.size();
         const timeseries::Field field =
-            eighth ? reader->readSlab(variable, steps - 1, {2, kSide - kSide / 8, kSide / 8})
+            eighth ? reader->slab(variable, steps - 1, {2, kSide - kSide / 8, kSide / 8})
                    : reader->read(variable, steps - 1);
         if (std::visit([](const auto& values) { return values.size(); }, field.values) !=
             kPoints / part)

@@ -12,8 +12,9 @@ struct SampledError {
 };
 inline SampledError sampledError(const CellWorld& world, const render::View& view,
                                  const render::DepthAt& picture, const render::Sampling& sampling) {
-    const render::SampledTruth truth(world.scene, world.scene.cells->field(), view, picture,
-                                     sampling);
+    render::SampledTruth truth(world.scene, view, picture, sampling);
+    for (const auto rays : {render::SampledTruth::Rays::Quarter, render::SampledTruth::Rays::Rest})
+        truth.add(world.scene.cells->field(), rays);
     return {truth.apart(picture(truth.pixels()), truth.depth()), truth.pixels().size()};
 }
 

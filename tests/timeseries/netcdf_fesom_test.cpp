@@ -167,7 +167,7 @@ void expectValues(const ValuesForm& form, const MeshForm& mesh) {
         expectLevels(std::get<std::vector<float>>(field.values), form, mesh, step, 0, levels);
     }
     // A part of it is the same part.
-    const Field slab = reader->readSlab(v, 1, {2, 1, 2});
+    const Field slab = reader->slab(v, 1, {2, 1, 2});
     expectLevels(std::get<std::vector<float>>(slab.values), form, mesh, 1, 1, 2);
     EXPECT_EQ(reader->sources(v, 1).files, (std::vector<Path>{path, meshPath}));
     EXPECT_EQ(reader->variables()[indexOf(*reader, "ssh")].grid->count(),

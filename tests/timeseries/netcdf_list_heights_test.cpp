@@ -248,7 +248,7 @@ TEST(NetcdfListHeights, SlabsAreOfLevels) {
     for (const bool fastest : {false, true}) {
         const auto reader = open(written({By::Sigma, true, fastest}));
         const std::size_t v = tests::indexOf(*reader, "T");
-        const Field some = reader->readSlab(v, 1, {2, 1, 2});
+        const Field some = reader->slab(v, 1, {2, 1, 2});
         const auto& values = std::get<std::vector<std::int32_t>>(some.values);
         ASSERT_EQ(values.size(), std::size_t(2 * kLatticeNodes));
         for (std::size_t i = 0; i < values.size(); ++i)

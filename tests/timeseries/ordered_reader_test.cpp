@@ -46,7 +46,7 @@ TEST(OrderedReader, OfOneFileStepsAreInOrderOfTheirTimes) {
             EXPECT_EQ(axis.points[i].value, 0.25 * double(i));
             EXPECT_EQ(times[stored], axis.points[i].value);
             EXPECT_EQ(reader->sources(0, i).step, stored);
-            EXPECT_EQ(std::get<std::vector<float>>(reader->readSlab(0, i, {1, 0, 1}).values)[0],
+            EXPECT_EQ(std::get<std::vector<float>>(reader->slab(0, i, {1, 0, 1}).values)[0],
                       found[i]);
         }
         EXPECT_EQ(axis.points[5].date, "2001-03-02 06:00:00");

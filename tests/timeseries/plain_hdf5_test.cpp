@@ -210,7 +210,7 @@ void expectNumbers(hid_t base, bool turned) {
     const Field field = reader->read(0, 0);
     EXPECT_EQ(std::get<std::vector<T>>(field.values), values);
     EXPECT_THAT(field.missing, Each(false));
-    const Field slab = reader->readSlab(0, 0, {2, 1, 2});
+    const Field slab = reader->slab(0, 0, {2, 1, 2});
     EXPECT_EQ(std::get<std::vector<T>>(slab.values),
               std::vector<T>(values.begin() + 20, values.end()));
 }

@@ -30,7 +30,7 @@ void expectParts(const std::vector<fs::path>& paths) {
                         SCOPED_TRACE(testing::Message()
                                      << reader->variables()[v].name << ", step " << s << ", axis "
                                      << axis << ": " << first << " + " << count);
-                        const Field part = reader->readSlab(v, s, {axis, first, count});
+                        const Field part = reader->slab(v, s, {axis, first, count});
                         ASSERT_EQ(part.type(), whole.type());
                         std::visit(
                             [&]<typename T>(const std::vector<T>& values) {
@@ -90,6 +90,40 @@ TEST(ReadSlab, OfNrrd) {
                                   tests::encoded(encoding, bytes)));
             expectParts({path});
         }
+}
+
+TEST(ReadSlab, OfPlanesIsNoMoreWorkThanOfAllWhereTheyLieOneAfterAnother) {
+    const auto readsPlanes = [](const fs::path& path, const std::string& name = "") {
+        const auto reader = openReader(std::span(&path, 1));
+        const auto all = reader->variables();
+        const auto found = std::ranges::find(all, name, &Variable::name);
+        return reader->readsPlanes(name.empty() ? 0 : static_cast<std::size_t>(found - all.begin()),
+                                   1);
+    };
+    const std::string head = "type: short\ndimension: 4\nsizes: 5 4 3 2\nendian: little\n",
+                      bytes = tests::bytesOf(numbers(120));
+    const auto nrrd = [&](const std::string& encoding, const std::string& kinds) {
+        const fs::path path = tests::freshFolder() / "planes.nrrd";
+        tests::writeBytes(path,
+                          tests::nrrd(head + "encoding: " + encoding + "\nkinds: " + kinds + "\n",
+                                      tests::encoded(encoding, bytes)));
+        return path;
+    };
+    EXPECT_TRUE(readsPlanes(nrrd("raw", "domain domain domain time")));
+    EXPECT_FALSE(readsPlanes(nrrd("gzip", "domain domain domain time")));
+    EXPECT_FALSE(readsPlanes(nrrd("raw", "domain domain time domain")));
+    tests::NetcdfBuilder file("planes.nc", NC_NETCDF4);
+    const int t = file.dimension("time", 2), z = file.dimension("lev", 4),
+              y = file.dimension("lat", 3), x = file.dimension("lon", 5);
+    file.variable("plain", NC_SHORT, {t, z, y, x});
+    file.variable("turned", NC_SHORT, {t, y, z, x});
+    const std::array<std::size_t, 4> chunk{1, 2, 3, 5};
+    tests::NetcdfBuilder::check(nc_def_var_chunking(
+        file.id(), file.variable("chunked", NC_SHORT, {t, z, y, x}), NC_CHUNKED, chunk.data()));
+    const fs::path path = file.close();
+    EXPECT_TRUE(readsPlanes(path, "plain"));
+    EXPECT_FALSE(readsPlanes(path, "turned"));
+    EXPECT_FALSE(readsPlanes(path, "chunked"));
 }
 
 // Turned: not in the file's order.

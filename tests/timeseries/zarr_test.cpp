@@ -296,7 +296,7 @@ TEST(Zarr, ASlabIsAPartOfItsStep) {
             if (at[2 - axis] >= 1 && at[2 - axis] < 3)
                 values.push_back(valueAt<std::int32_t>({2, at[0], at[1], at[2]}));
         });
-        const Field slab = reader->readSlab(0, 2, {axis, 1, 2});
+        const Field slab = reader->slab(0, 2, {axis, 1, 2});
         EXPECT_EQ(std::get<std::vector<std::int32_t>>(slab.values), values) << axis;
     }
 }

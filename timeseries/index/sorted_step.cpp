@@ -358,8 +358,10 @@ Field SortedStep::field() const {
     return out;
 }
 
+std::shared_ptr<const Field> SortedStep::fieldIfThere() const { return cells_->fieldIfThere(); }
+
 std::shared_ptr<const Field> SortedStep::sharedField() const {
-    auto there = cells_->fieldIfThere();
+    auto there = fieldIfThere();
     return there ? there : std::make_shared<const Field>(field());
 }
 

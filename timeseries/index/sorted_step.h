@@ -59,6 +59,10 @@ class LazyColumn;  // timeseries/index/lazy_column.h
 class CellIndex;   // timeseries/index/cell_index.h
 class StepFile;    // timeseries/index/step_file.h
 
+// Of a field, the values of so many planes along its last index, without a grid, in the memory of
+// planes that were read before; not once the field is not the same any more.
+using PlanesOf = std::function<bool(std::size_t first, std::size_t count, Field& planes)>;
+
 // Immutable, but for what nobody can tell: points are put in order where somebody first looks.
 // Every member is safe to call from any thread. Memory: sizeof(value) + 4 bytes a kept point; 4,
 // and 16 a value that there is, of large steps of 8 and 16 bits whose values are not asked for. Any
@@ -82,6 +86,9 @@ class SortedStep {
         std::function<SortedStep(const std::string& why)> again;
         // The field itself, if it is still the one; may be empty.
         std::function<std::optional<Field>()> field = {};
+        // Opens it for reading parts; gives nothing where these are not sooner read than all. May
+        // be empty.
+        std::function<PlanesOf()> planes = {};
     };
     // A step that was written to a file, of which it reads what is looked at. When the file turns
     // out to be damaged, the step is made anew, once, and what is shown is then from there. Throws
@@ -99,8 +106,12 @@ class SortedStep {
     // All values in the grid's order: of the source, which is soon read, where there is one.
     // Missing points are marked or NaN. REQUIRES: all values were kept, or a source.
     Field field() const;
-    // The field without reading, where there are cells of it or it is held for them.
+    // The field without reading, where there are cells of it or it is held for them; else null.
+    std::shared_ptr<const Field> fieldIfThere() const;
+    // That, else field().
     std::shared_ptr<const Field> sharedField() const;
+    // Of the source of field(); of one thread. May give nothing.
+    PlanesOf openPlanes() const { return source_.planes ? source_.planes() : PlanesOf(); }
 
     // Disjoint, ascending, none empty. Two binary searches a range, and half a millisecond where an
     // end of a range falls among points of which none was asked for yet.

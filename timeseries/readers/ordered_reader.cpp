@@ -55,8 +55,11 @@ class OrderedReader final : public Reader {
     Field read(std::size_t variable, std::size_t step) override {
         return file_->read(variable, own(variable, step));
     }
-    Field readSlab(std::size_t variable, std::size_t step, const Slab& slab) override {
-        return file_->readSlab(variable, own(variable, step), slab);
+    void readSlab(std::size_t variable, std::size_t step, const Slab& slab, Field& into) override {
+        file_->readSlab(variable, own(variable, step), slab, into);
+    }
+    bool readsPlanes(std::size_t variable, std::size_t step) override {
+        return file_->readsPlanes(variable, own(variable, step));
     }
     std::shared_ptr<const StepFile> sorted(std::size_t variable, std::size_t step) override {
         return file_->sorted(variable, own(variable, step));

@@ -176,13 +176,12 @@ std::vector<T> partOf(const std::vector<T>& all, const std::array<std::size_t, 3
 
 }  // namespace
 
-Field Reader::readSlab(std::size_t variable, std::size_t step, const Slab& slab) {
-    Field field = read(variable, step);
-    const auto size = field.grid->size();
-    std::visit([&](auto& values) { values = partOf(values, size, slab); }, field.values);
-    if (!field.missing.empty()) field.missing = partOf(field.missing, size, slab);
-    field.grid = nullptr;
-    return field;
+void Reader::readSlab(std::size_t variable, std::size_t step, const Slab& slab, Field& into) {
+    into = read(variable, step);
+    const auto size = into.grid->size();
+    std::visit([&](auto& values) { values = partOf(values, size, slab); }, into.values);
+    if (!into.missing.empty()) into.missing = partOf(into.missing, size, slab);
+    into.grid = nullptr;
 }
 
 std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths) {

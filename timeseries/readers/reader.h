@@ -92,9 +92,17 @@ class Reader {
     virtual std::span<const DamagedVariable> damaged() const { return {}; }
     // REQUIRES: variable < variables().size(), step < its time's points. Throws FileError.
     virtual Field read(std::size_t variable, std::size_t step) = 0;
-    // A part of what read() gives, in the order of the grid, without a grid. It takes the memory of
-    // all values where the format, or how they lie in the file, leaves no choice.
-    virtual Field readSlab(std::size_t variable, std::size_t step, const Slab& slab);
+    // A part of what read() gives, in the order of the grid, without a grid; in the memory of one
+    // that was read before where there is a way to. It takes the memory of all values where the
+    // format, or how they lie in the file, leaves no choice.
+    virtual void readSlab(std::size_t variable, std::size_t step, const Slab& slab, Field& into);
+    Field slab(std::size_t variable, std::size_t step, const Slab& slab) {
+        Field field;
+        readSlab(variable, step, slab, field);
+        return field;
+    }
+    // Whether all slabs along the last index, one after another, are no more work than read().
+    virtual bool readsPlanes(std::size_t, std::size_t) { return false; }
     // The step as its file has it, where that is a sorted one; null where it is not.
     virtual std::shared_ptr<const StepFile> sorted(std::size_t, std::size_t) { return nullptr; }
     // What the values of a step come from; no files where that is not known, or the step's places

@@ -93,9 +93,13 @@ class SequenceReader final : public Reader {
     std::span<const Path> files() const override { return paths_; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
-    Field readSlab(std::size_t variable, std::size_t step, const Slab& slab) override {
+    void readSlab(std::size_t variable, std::size_t step, const Slab& slab, Field& into) override {
         const Member member = memberOf(variable, step);
-        return member.reader.readSlab(member.variable, member.step, slab);
+        member.reader.readSlab(member.variable, member.step, slab, into);
+    }
+    bool readsPlanes(std::size_t variable, std::size_t step) override {
+        const Member member = memberOf(variable, step);
+        return member.reader.readsPlanes(member.variable, member.step);
     }
     std::shared_ptr<const StepFile> sorted(std::size_t variable, std::size_t step) override {
         const Member member = memberOf(variable, step);

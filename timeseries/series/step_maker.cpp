@@ -22,20 +22,43 @@ struct Reopened {
         const auto stamp = store->stampOf(origin);
         return stamp && stamp->text == about;
     }
-    // None, should it have changed before it was read, or while it was.
-    std::optional<Field> read() const try {
+    struct Open {
+        std::shared_ptr<Reader> reader;
+        std::size_t variable;
+    };
+    // Of these, nothing, should it have changed before it was read, or while it was.
+    std::optional<Open> open() const {
         if (!isStill()) return std::nullopt;
-        const auto reader = openReader(*files);
+        const std::shared_ptr<Reader> reader = openReader(*files);
         const auto variables = reader->variables();
         const auto found = std::ranges::find(variables, variable, &Variable::name);
         if (found == variables.end() || step >= found->time->points.size()) return std::nullopt;
         const auto v = static_cast<std::size_t>(found - variables.begin());
         // Files before its own may have gained steps.
         if (originOf(*reader, v, step) != origin) return std::nullopt;
-        Field field = reader->read(v, step);
+        return Open{reader, v};
+    }
+    std::optional<Field> read() const try {
+        const auto opened = open();
+        if (!opened) return std::nullopt;
+        Field field = opened->reader->read(opened->variable, step);
         return isStill() ? std::optional(std::move(field)) : std::nullopt;
     } catch (const FileError&) {
         return std::nullopt;
+    }
+    static PlanesOf planes(const std::shared_ptr<const Reopened>& of) try {
+        const auto opened = of->open();
+        if (!opened || !opened->reader->readsPlanes(opened->variable, of->step)) return {};
+        return [of, opened = *opened](std::size_t first, std::size_t count, Field& planes) {
+            try {
+                opened.reader->readSlab(opened.variable, of->step, {2, first, count}, planes);
+            } catch (const FileError&) {
+                return false;
+            }
+            return of->isStill();
+        };
+    } catch (const FileError&) {
+        return {};
     }
 };
 
@@ -95,6 +118,7 @@ std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std:
         const auto source = std::make_shared<const Reopened>(
             Reopened{files_, variable().name, step, store, origin, file->about()});
         const auto field = [source] { return source->read(); };
+        const auto planes = [source] { return Reopened::planes(source); };
         const auto again = [source](const std::string& why) {
             source->store->discard(source->store->pathOf(source->origin), why);
             if (const auto read = source->read()) return SortedStep::build(*read);
@@ -103,7 +127,7 @@ std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std:
         };
         try {
             return std::make_shared<const SortedStep>(SortedStep::stored(
-                std::move(file), variable().grid, variable().categories, {again, field}));
+                std::move(file), variable().grid, variable().categories, {again, field, planes}));
         } catch (const StepFileError&) {  // of another grid: its file has changed
         }
     }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 #include "timeseries/grid/pages.h"
 #include "timeseries/readers/arrays/array_axes.h"
@@ -65,13 +67,23 @@ class ArrayReader final : public Reader {
     std::span<const std::filesystem::path> files() const override { return {&header_.path, 1}; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
-    Field readSlab(std::size_t variable, std::size_t step, const Slab& slab) override;
+    void readSlab(std::size_t variable, std::size_t step, const Slab& slab, Field& into) override;
+    bool readsPlanes(std::size_t variable, std::size_t) override {
+        return header_.encoding == ArrayEncoding::Raw && layout_.outer == 1 &&
+               isOnePiece(variable, 2);
+    }
     StepSources sources(std::size_t, std::size_t step) override { return {sources_, step}; }
 
  private:
+    // Of a slab along this axis, in the file.
+    bool isOnePiece(std::size_t variable, std::size_t axis) const {
+        return !layout_.turned && pointsOf(variable, axis + 1) == points();
+    }
+    // Along the axes before this one.
+    std::uint64_t pointsOf(std::size_t variable, std::size_t axes) const;
     std::uint64_t points() const { return layout_.inner * layout_.outer; }
     // Points [first, last) in the order of the grid. REQUIRES: all, where that is not the file's.
-    Field values(std::size_t step, std::uint64_t first, std::uint64_t last);
+    void readValues(std::size_t step, std::uint64_t first, std::uint64_t last, Field& into);
     template <typename T>
     void fill(std::size_t step, std::uint64_t first, std::uint64_t last, std::vector<T>& values);
     template <typename T>
@@ -104,7 +116,10 @@ void ArrayReader::scatter(std::uint64_t first, std::span<const T> from,
 template <typename T>
 void ArrayReader::fill(std::size_t step, std::uint64_t first, std::uint64_t last,
                        std::vector<T>& values) {
-    resizePopulated(values, last - first);
+    if (values.size() != last - first) {
+        values.clear();
+        resizePopulated(values, last - first);
+    }
     std::vector<T> part(layout_.turned ? std::min(kTurnCount, layout_.inner) : 0);
     for (std::uint64_t outer = 0; outer < layout_.outer; ++outer) {
         const std::uint64_t at = (outer * layout_.steps + step) * layout_.inner;
@@ -143,29 +158,31 @@ std::vector<double> scaled(const Values& stored, const ArrayHeader::Scaling& by)
     return values;
 }
 
-Field ArrayReader::values(std::size_t step, std::uint64_t first, std::uint64_t last) {
-    Field field;
-    field.categories = header_.categories;
-    field.values = valuesOf(header_.type);
-    std::visit([&](auto& values) { fill(step, first, last, values); }, field.values);
-    if (header_.scaling) field.values = scaled(field.values, *header_.scaling);
-    return field;
+void ArrayReader::readValues(std::size_t step, std::uint64_t first, std::uint64_t last,
+                             Field& into) {
+    into.categories = header_.categories;
+    if (into.type() != header_.type) into.values = valuesOf(header_.type);
+    std::visit([&](auto& values) { fill(step, first, last, values); }, into.values);
+    if (header_.scaling) into.values = scaled(into.values, *header_.scaling);
 }
 
 Field ArrayReader::read(std::size_t variable, std::size_t step) {
-    Field field = values(step, 0, points());
+    Field field;
+    readValues(step, 0, points(), field);
     field.grid = variables_[variable].grid;
     return field;
 }
 
-Field ArrayReader::readSlab(std::size_t variable, std::size_t step, const Slab& slab) {
+std::uint64_t ArrayReader::pointsOf(std::size_t variable, std::size_t axes) const {
     const auto size = variables_[variable].grid->size();
-    std::uint64_t inner = 1;
-    for (std::size_t a = 0; a < slab.axis; ++a) inner *= size[a];
-    // One piece of the file, or pieces of all of it.
-    if (layout_.turned || inner * size[slab.axis] != points())
-        return Reader::readSlab(variable, step, slab);
-    return values(step, slab.first * inner, (slab.first + slab.count) * inner);
+    return std::accumulate(size.begin(), size.begin() + static_cast<std::ptrdiff_t>(axes),
+                           std::uint64_t{1}, std::multiplies());
+}
+
+void ArrayReader::readSlab(std::size_t variable, std::size_t step, const Slab& slab, Field& into) {
+    if (!isOnePiece(variable, slab.axis)) return Reader::readSlab(variable, step, slab, into);
+    const std::uint64_t inner = pointsOf(variable, slab.axis);
+    readValues(step, slab.first * inner, (slab.first + slab.count) * inner, into);
 }
 
 }  // namespace

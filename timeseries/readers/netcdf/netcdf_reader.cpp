@@ -49,7 +49,8 @@ class CfReader final : public Reader {
     std::span<const Variable> variables() const override { return variables_; }
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
-    Field readSlab(std::size_t variable, std::size_t step, const Slab& slab) override;
+    void readSlab(std::size_t variable, std::size_t step, const Slab& slab, Field& into) override;
+    bool readsPlanes(std::size_t variable, std::size_t step) override;
     StepSources sources(std::size_t variable, std::size_t step) override;
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override;
 
@@ -345,9 +346,19 @@ Field CfReader::valuesOf(std::size_t variable, std::size_t index, std::size_t st
     return field;
 }
 
-Field CfReader::readSlab(std::size_t variable, std::size_t seriesStep, const Slab& slab) {
+void CfReader::readSlab(std::size_t variable, std::size_t seriesStep, const Slab& slab,
+                        Field& into) {
     const auto [index, step] = fileOf(variable, seriesStep);
-    return valuesOf(variable, index, step, &slab);
+    into = valuesOf(variable, index, step, &slab);
+}
+
+bool CfReader::readsPlanes(std::size_t variable, std::size_t step) {
+    const std::size_t index = fileOf(variable, step).first;
+    const FileVariable& source = contents_[index][variable];
+    const auto &x = source.roles.x, &y = source.roles.y, &z = source.roles.z;
+    const NcVariable* const found = open(index).header().find(source.name, "");
+    // Chunks would be unpacked once for each slab that they reach into.
+    return found && found->chunkBytes == 0 && z && (!y || *z < *y) && (!x || *z < *x);
 }
 
 Field CfReader::read(std::size_t variable, std::size_t seriesStep) {
