@@ -8,71 +8,15 @@
 #include <glm/vector_relational.hpp>
 #include <limits>
 
+#include "app/choices/fit.h"
 #include "render/annotate/axes.h"
+#include "render/annotate/legend.h"
 
 namespace app {
 namespace {
 
 // Half the field of view of the picture's shorter side: narrow, as for a photograph of an object.
 const double kHalfAngle = glm::radians(15.0);
-// The box's corners as the camera sees them from the target, along right, up and back.
-std::array<glm::dvec3, 8> cornersOf(const glm::dmat3& axes, const glm::dmat3& boxHalfEdges,
-                                    const glm::dvec3& target) {
-    std::array<glm::dvec3, 8> corners;
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-        const glm::dvec3 sign(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1);
-        corners[c] = glm::transpose(axes) * (boxHalfEdges * sign - target);
-    }
-    return corners;
-}
-
-// Where the eye stands back and how far the target is moved right and up, in the world.
-struct Fit {
-    double distance;
-    glm::dvec2 aside{0};
-};
-
-// From where all corners are inside, and none is so near that the near plane cuts it, as the tip of
-// a needle seen end on. A single point is seen from 4 away.
-//
-// A corner at x and depth d - z is drawn at (x - a) / (s (d - z)) half pictures from the middle, a
-// being how far the target is aside and s the slope. That is at most m for all where, for every two
-// corners,
-//   x1 - x2 <= s m (2 d - z1 - z2),
-// which gives the least d; a may then be chosen between the bounds that single corners give it.
-Fit boxFit(const ViewChoice& view, const glm::dmat3& axes, const glm::dmat3& boxHalfEdges,
-           const glm::dvec2& slope, const glm::dvec2& most) {
-    constexpr double kNearestCorner = 0.6;
-    const bool isCentred = view.target == glm::dvec3(0);
-    if (boxHalfEdges == glm::dmat3(0) && isCentred) return {4};
-    auto corners = cornersOf(axes, boxHalfEdges, view.target);
-    if (view.projection == Projection::Orthographic)
-        for (glm::dvec3& corner : corners) corner.z = 0;
-    const glm::dvec2 reach = slope * most;
-    Fit fit{kNearestCorner};
-    for (const glm::dvec3& one : corners) {
-        fit.distance = std::max(fit.distance, one.z + kNearestCorner);
-        for (int k = 0; k < 2; ++k) {
-            if (!isCentred)
-                fit.distance = std::max(fit.distance, one.z + std::abs(one[k]) / reach[k]);
-            for (const glm::dvec3& other : corners)
-                fit.distance = std::max(fit.distance,
-                                        0.5 * ((one[k] - other[k]) / reach[k] + one.z + other.z));
-        }
-    }
-    if (!isCentred) return fit;
-    for (int k = 0; k < 2; ++k) {
-        double least = -std::numeric_limits<double>::infinity(), greatest = -least;
-        for (const glm::dvec3& corner : corners) {
-            const double half = reach[k] * (fit.distance - corner.z);
-            least = std::max(least, corner[k] - half);
-            greatest = std::min(greatest, corner[k] + half);
-        }
-        fit.aside[k] = 0.5 * (least + greatest);
-    }
-    return fit;
-}
-
 // The point midway between the eyes, and the frustum from there.
 struct Camera {
     glm::dvec3 at;
@@ -100,36 +44,6 @@ Camera orthographic(const Stand& stand) {
             .far = from + 2};
 }
 
-// A ball at x and z, of radius h: the frustum's side x - a = s m (d - z) is h or more away from its
-// centre where s m (d - z) >= |x| + h sqrt(1 + (s m)^2); parallel sides where s m d >= |x| + h.
-Fit ballFit(const ViewChoice& view, const glm::dmat3& axes, double radius,
-            const glm::dvec2& reach) {
-    const glm::dvec3 centre = glm::transpose(axes) * -view.target;
-    const bool isParallel = view.projection == Projection::Orthographic;
-    double distance = 0;
-    for (int k = 0; k < 2; ++k) {
-        const double wide = isParallel ? radius : radius * std::sqrt(1 + reach[k] * reach[k]);
-        distance = std::max(distance, (std::abs(centre[k]) + wide) / reach[k]);
-    }
-    return {distance + (isParallel ? 0 : centre.z)};
-}
-
-Fit fittingStand(const ViewChoice& view, const glm::dmat3& axes, const render::Outline& outline,
-                 const glm::dvec2& slope, const glm::dvec2& most) {
-    if (outline.isBall)
-        return ballFit(view, axes, outline.boxHalfEdges[0].x, kBoxShare * slope * most);
-    const Fit box = boxFit(view, axes, outline.boxHalfEdges, slope, kBoxShare * most);
-    // Of few points, the outermost cells reach farther than what the box leaves free.
-    const auto isFree = [&](const glm::dvec3& corner) {
-        const double depth = view.projection == Projection::Orthographic ? 0 : corner.z;
-        const glm::dvec2 half = slope * most * (box.distance - depth);
-        return glm::all(glm::lessThanEqual(glm::abs(glm::dvec2(corner) - box.aside), half));
-    };
-    if (std::ranges::all_of(cornersOf(axes, outline.filledHalfEdges, view.target), isFree))
-        return box;
-    return boxFit(view, axes, outline.filledHalfEdges, slope, most);
-}
-
 }  // namespace
 
 glm::dvec2 freeAreaOf(glm::ivec2 size) {
@@ -148,7 +62,8 @@ glm::dvec3 directionOf(double azimuthDegrees, double elevationDegrees) {
             std::sin(elevation)};
 }
 
-Stand standOf(const ViewChoice& view, const render::Outline& outline, glm::ivec2 size) {
+Stand standOf(const ViewChoice& view, const render::Outline& outline, glm::ivec2 size,
+              const glm::dvec2& legend) {
     const double azimuth = glm::radians(view.azimuthDegrees);
     // Right comes from the azimuth alone, so that looking straight down is no special case.
     const glm::dvec3 right(std::cos(azimuth), std::sin(azimuth), 0);
@@ -156,33 +71,49 @@ Stand standOf(const ViewChoice& view, const render::Outline& outline, glm::ivec2
     const glm::dmat3 axes(right, glm::cross(back, right), back);
     const double shorter = std::min(size.x, size.y);
     const glm::dvec2 slope = std::tan(kHalfAngle) * glm::dvec2(size) / shorter;
-    Stand stand{axes, 0, view.target, slope};
+    Stand stand{axes, 0, view.target, slope, view.shift.value_or(glm::dvec2(0))};
     if (view.distance) {
         stand.distance = *view.distance;
         return stand;
     }
-    const Fit fit = fittingStand(view, axes, outline, slope, freeAreaOf(size));
+    const Looks looks{axes, slope, view.target, view.projection == Projection::Orthographic,
+                      freeAreaOf(size)};
+    const bool isBeside = !view.shift && legend != glm::dvec2(0) && view.target == glm::dvec3(0);
+    const Fit fit = isBeside ? fitBeside(legend, size, looks, outline) : fitOf(looks, outline);
     stand.distance = fit.distance;
     stand.target += fit.aside.x * axes[0] + fit.aside.y * axes[1];
+    stand.shift += fit.shift;
     return stand;
 }
 
+glm::dvec2 legendOf(const Explorer& e) {
+    if (!e.legend) return glm::dvec2(0);
+    std::size_t scales = 0, swatches = 0;
+    for (const LayerChoice& layer : e.layers) {
+        if (!layer.visible) continue;
+        const bool byValue = layer.color && std::holds_alternative<MapChoice>(*layer.color);
+        ++(byValue ? scales : swatches);
+    }
+    return render::legendCorner(scales, swatches, e.size);
+}
+
 std::vector<render::View> eyes(const ViewChoice& view, const StereoChoice& stereo,
-                               const render::Outline& outline, glm::ivec2 size) {
-    const Stand stand = standOf(view, outline, size);
+                               const render::Outline& outline, glm::ivec2 size,
+                               const glm::dvec2& legend) {
+    const Stand stand = standOf(view, outline, size, legend);
     const bool isFar = view.projection == Projection::Orthographic;
     const Camera camera = isFar ? orthographic(stand) : perspective(stand);
     const auto eye = [&](double sideways, double convergence) {
-        const double shift = -sideways / convergence;
+        const double parallax = -sideways / convergence;
         const glm::dvec3 at = camera.at + sideways * stand.axes[0];
-        const glm::dvec2 slope = camera.slope;
+        const glm::dvec2 slope = camera.slope, middle = -stand.shift * slope;
         glm::dmat4 viewFromWorld(glm::transpose(stand.axes));
         viewFromWorld[3] = glm::dvec4(glm::dmat3(viewFromWorld) * -at, 1.0);
-        return render::View{
-            .clipFromView = render::clipFromView(
-                {-slope.x + shift, slope.x + shift, -slope.y, slope.y, camera.near, camera.far}),
-            .viewFromWorld = viewFromWorld,
-            .size = size};
+        return render::View{.clipFromView = render::clipFromView(
+                                {middle.x - slope.x + parallax, middle.x + slope.x + parallax,
+                                 middle.y - slope.y, middle.y + slope.y, camera.near, camera.far}),
+                            .viewFromWorld = viewFromWorld,
+                            .size = size};
     };
     if (stereo.mode == Stereo::Off) return {eye(0, 1)};
     double apart = stereo.eyeDistance.value_or(stand.distance / 30);
@@ -195,6 +126,10 @@ std::vector<render::View> eyes(const ViewChoice& view, const StereoChoice& stere
         convergence += from - stand.distance;
     }
     return {eye(-apart / 2, convergence), eye(apart / 2, convergence)};
+}
+
+std::vector<render::View> eyes(const Explorer& e, const render::Outline& outline) {
+    return eyes(e.view, e.stereo, outline, e.size, legendOf(e));
 }
 
 }  // namespace app

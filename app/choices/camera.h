@@ -19,6 +19,7 @@ struct Stand {
     double distance;    // the view's own, or the one from which all of the box is seen
     glm::dvec3 target;  // in the middle of the picture: the view's own, or one beside the centre
     glm::dvec2 slope;   // half the picture's width and height at the target, over `distance`
+    glm::dvec2 shift;   // of the target, in halves of the picture's sides from the middle
 };
 // The part of a picture about its middle that a box may fill, in halves of the picture's sides:
 // what titles and the labels around a box leave free. Labels find places among the box's edges, so
@@ -29,8 +30,16 @@ glm::dvec2 freeAreaOf(glm::ivec2 size);
 // beyond the free area then, they span all of it. Where the view has no target of its own either,
 // what is seen of the box stands in the middle: the nearer corners of a perspective reach farther,
 // so that the target is then beside the box's centre, mostly below or above it.
+//
+// From there it is shifted as little as clears the legend (`legend`: its size in pixels, in the
+// upper left corner; 0: there is none), all of it the same, and seen from farther where it has no
+// room: by kFarther at most. Where that is not enough the picture is as it is without a legend.
 inline constexpr double kBoxShare = 0.9;
-Stand standOf(const ViewChoice& view, const render::Outline& outline, glm::ivec2 size);
+inline constexpr double kFarther = 4.0 / 3;
+Stand standOf(const ViewChoice& view, const render::Outline& outline, glm::ivec2 size,
+              const glm::dvec2& legend = glm::dvec2(0));
+// What an explorer's legend takes of the picture, whatever its numbers are; 0 where it has none.
+glm::dvec2 legendOf(const Explorer& explorer);
 
 // One view, or left then right. The eyes look along parallel axes and their frusta meet at the
 // convergence distance (off-axis projection), so that nothing is sheared or keystoned.
@@ -42,6 +51,9 @@ Stand standOf(const ViewChoice& view, const render::Outline& outline, glm::ivec2
 // 1600. Its eyes are as much farther apart, so that depth shows as it does in the perspective.
 inline constexpr double kFarEye = 1e4;
 std::vector<render::View> eyes(const ViewChoice& view, const StereoChoice& stereo,
-                               const render::Outline& outline, glm::ivec2 size);
+                               const render::Outline& outline, glm::ivec2 size,
+                               const glm::dvec2& legend = glm::dvec2(0));
+// As an explorer's picture has them.
+std::vector<render::View> eyes(const Explorer& explorer, const render::Outline& outline);
 
 }  // namespace app

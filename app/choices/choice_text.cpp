@@ -211,6 +211,10 @@ glm::dvec3 parseScale(std::string_view text) {
     return {(*n)[0], (*n)[1], (*n)[2]};
 }
 
+void choose(ViewChoice& view) {
+    view.chosen = true;
+    view.shift = glm::dvec2(0);
+}
 void takeView(ViewChoice& view, std::string_view text) {
     const auto n = numbers(text);
     if (!n || n->size() < 2 || n->size() > 3 ||
@@ -220,7 +224,7 @@ void takeView(ViewChoice& view, std::string_view text) {
             text, kNearest, kFarthest));
     view.azimuthDegrees = (*n)[0];
     view.elevationDegrees = (*n)[1];
-    view.chosen = true;
+    choose(view);
     view.distance = n->size() == 3 ? std::optional((*n)[2]) : std::nullopt;
 }
 std::string viewText(const ViewChoice& view) {
@@ -237,6 +241,21 @@ glm::dvec3 parseTarget(std::string_view text) {
             fmt::format("target '{}' is not x,y,z in half diagonals of the box, each from {} to {}",
                         text, -kFarthest, kFarthest));
     return {(*n)[0], (*n)[1], (*n)[2]};
+}
+
+std::optional<glm::dvec2> parseShift(std::string_view text) {
+    if (text == kAuto) return std::nullopt;
+    const auto n = numbers(text);
+    const auto isNear = [](double x) { return std::abs(x) <= kMostShift; };
+    if (!n || n->size() != 2 || !std::ranges::all_of(*n, isNear))
+        throw ChoiceError(
+            fmt::format("shift '{}' is not {}, nor x,y in halves of the picture's sides, each from "
+                        "{} to {}",
+                        text, kAuto, -kMostShift, kMostShift));
+    return glm::dvec2((*n)[0], (*n)[1]);
+}
+std::string shiftText(const std::optional<glm::dvec2>& shift) {
+    return shift ? fmt::format("{},{}", shift->x, shift->y) : std::string(kAuto);
 }
 
 glm::ivec2 parseSize(std::string_view text) {

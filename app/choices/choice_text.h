@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -36,6 +37,8 @@ std::string flipsText(const std::array<AxisChoice, 3>& axes);
 std::pair<std::size_t, std::string> parseAxisName(std::string_view text);
 
 glm::dvec3 parseScale(std::string_view text);  // "1,1,20", each within these
+// A view that is asked for stands in the middle of the picture, unless its shift is asked for, too.
+void choose(ViewChoice& view);
 // "30,20" or "30,20,4.5": from where, and how far away; what is looked at stays.
 void takeView(ViewChoice& view, std::string_view text);
 std::string viewText(const ViewChoice& view);
@@ -43,7 +46,12 @@ std::string viewText(const ViewChoice& view);
 // box has no depth left.
 inline constexpr double kNearest = 1e-6, kFarthest = 1e6;
 glm::dvec3 parseTarget(std::string_view text);  // "0.1,0,-0.2", each within +-kFarthest
-glm::ivec2 parseSize(std::string_view text);    // "1200x900"
+inline constexpr double kMostShift = 1;         // to the picture's sides
+inline constexpr std::string_view kAuto = "auto";
+// "0.1,-0.05", each within +-kMostShift; none of kAuto.
+std::optional<glm::dvec2> parseShift(std::string_view text);
+std::string shiftText(const std::optional<glm::dvec2>& shift);
+glm::ivec2 parseSize(std::string_view text);  // "1200x900"
 render::ColorMap parseColorMap(std::string_view name);
 
 // "viridis", or with the values of its ends, "viridis=300:1600", either of which may be left out.

@@ -228,13 +228,13 @@ constexpr std::array kChoices = {
            [](const Explorer& e) { return numberText(e.view.azimuthDegrees); },
            [](Explorer& e, std::string_view t) {
                e.view.azimuthDegrees = number(t);
-               e.view.chosen = true;
+               choose(e.view);
            }},
     Choice{"", "view.elevation", Form::Number,
            [](const Explorer& e) { return numberText(e.view.elevationDegrees); },
            [](Explorer& e, std::string_view t) {
                e.view.elevationDegrees = number(t);
-               e.view.chosen = true;
+               choose(e.view);
            }},
     Choice{
         "", "view.distance", Form::Number,
@@ -246,6 +246,13 @@ constexpr std::array kChoices = {
            },
            [](Explorer& e, std::string_view t) { e.view.target = parseTarget(t); }, "View",
            "x,y,z: what is looked at, in half diagonals from the box's centre"},
+    Choice{"--shift", "view.shift", Form::Text,
+           [](const Explorer& e) {
+               return unless(e.view.shift == glm::dvec2(0), shiftText(e.view.shift));
+           },
+           [](Explorer& e, std::string_view t) { e.view.shift = parseShift(t); }, "View",
+           "X,Y: where the target stands, in halves of the picture's sides from the middle (0,0 "
+           "with --view); auto: so that the legend covers none of the box"},
     Choice{"--orthographic", "view.projection", Form::Text,
            [](const Explorer& e) {
                return unless(e.view.projection == Projection::Perspective,

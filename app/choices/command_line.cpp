@@ -81,7 +81,7 @@ void addChoices(const Explorer& e, Arguments& arguments) {
         const auto text = choice.text(e);
         // Splats alone would choose points; and from where it is seen is told of every picture.
         const std::string_view option = choice.option;
-        const bool isTold = option == "--view" ||
+        const bool isTold = option == "--view" || option == "--shift" ||
                             (option == "--model" && (e.footprint != plain.footprint ||
                                                      std::ranges::any_of(e.layers, hasModel)));
         if (*choice.option == '\0' || !text || (text == choice.text(plain) && !isTold)) continue;

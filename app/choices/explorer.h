@@ -84,11 +84,16 @@ struct ViewChoice {
     std::optional<double> distance;
     glm::dvec3 target{0};  // world: half diagonals of the box from its centre
     Projection projection = Projection::Perspective;
+    // Where the target stands in the picture, in halves of its sides from the middle, as a lens is
+    // shifted: eye and directions stay. Absent: where all of it is seen beside the legend, and of a
+    // distance that is said the middle.
+    std::optional<glm::dvec2> shift = {};
     // Whether these angles were asked for (see first_look.h): no part of what is seen.
     bool chosen = false;
     friend bool operator==(const ViewChoice& a, const ViewChoice& b) {
         return a.azimuthDegrees == b.azimuthDegrees && a.elevationDegrees == b.elevationDegrees &&
-               a.distance == b.distance && a.target == b.target && a.projection == b.projection;
+               a.distance == b.distance && a.target == b.target && a.projection == b.projection &&
+               a.shift == b.shift;
     }
 };
 

@@ -24,6 +24,7 @@ void turn(ViewChoice& view, const ViewChoice& look) {
 bool looksAs(const ViewChoice& view, const ViewChoice& look) {
     ViewChoice same = look;
     same.projection = view.projection;
+    same.shift = view.shift;
     return view == same;
 }
 

@@ -4,6 +4,17 @@
 #include <utility>
 
 namespace app {
+namespace {
+
+// A tick of one is the same window of the other, however fast they are.
+bool sweepsAlike(const Explorer& a, const Explorer& b) {
+    if (!sweepOf(a) || !sweepOf(b)) return false;
+    timeseries::SweepSettings one = *sweepOf(a);
+    one.frequency = sweepOf(b)->frequency;
+    return one == *sweepOf(b) && a.variable == b.variable && a.files == b.files;
+}
+
+}  // namespace
 
 History::History(Explorer start) { states_.push_back(std::move(start)); }
 
@@ -37,11 +48,10 @@ void History::redo() {
 
 void History::goTo(std::size_t at) {
     endGesture();
-    const glm::ivec2 size = now().size;
-    const std::int64_t tick = now().play.tick;
+    const Explorer& left = now();
     at_ = at;
-    states_[at_].size = size;
-    states_[at_].play.tick = tick;
+    states_[at_].size = left.size;
+    if (sweepsAlike(states_[at_], left)) states_[at_].play.tick = left.play.tick;
 }
 
 }  // namespace app

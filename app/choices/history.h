@@ -34,8 +34,8 @@ class History {
 
     bool canUndo() const { return at_ > 0; }
     bool canRedo() const { return at_ + 1 < states_.size(); }
-    // REQUIRES: canUndo(), canRedo(). Size and play position (Explorer::size, play.tick) are not
-    // taken back: they stay as they are.
+    // REQUIRES: canUndo(), canRedo(). The size is not taken back (Explorer::size), nor where the
+    // window of a sweep stands (play.tick) while it is the same sweep of the same variable.
     void undo();
     void redo();
 

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
 
 #include "app/choices/choice_text.h"
@@ -263,6 +264,20 @@ std::vector<std::string> withCommand(std::span<const char* const> arguments) {
     return all;
 }
 
+std::string notACommand(std::string_view word) {
+    return fmt::format("'{}' is neither a file nor a command: expected {} (see isochron --help)",
+                       word, fmt::join(kCommands, ", "));
+}
+
+// A word that is no file, before others: a command that was mistyped.
+bool isMistyped(std::span<const char* const> arguments) {
+    if (arguments.size() < 2) return false;
+    const std::string_view word = arguments.front();
+    const auto isLetter = [](char c) { return c >= 'a' && c <= 'z'; };
+    return std::ranges::all_of(word, isLetter) && !isCommand(word) &&
+           !std::filesystem::exists(word);
+}
+
 }  // namespace
 
 CommonOptions commonOf(const Command& command) {
@@ -335,6 +350,7 @@ Command parse(std::span<const char* const> arguments) {
         return options;
     };
     try {
+        if (isMistyped(arguments)) return Exit{2, notACommand(arguments.front())};
         std::vector<std::string> all = withCommand(arguments);
         // CLI11 would give it the next argument.
         for (const std::string& each : all)
@@ -361,10 +377,7 @@ Command parse(std::span<const char* const> arguments) {
     } catch (const CLI::CallForVersion& version) {
         return Exit{0, version.what()};
     } catch (const CLI::ParseError& error) {
-        if (app.get_subcommands().empty())
-            return Exit{2, fmt::format("'{}' is neither a file nor a command: expected {} (see "
-                                       "isochron --help)",
-                                       arguments.front(), fmt::join(kCommands, ", "))};
+        if (app.get_subcommands().empty()) return Exit{2, notACommand(arguments.front())};
         return Exit{2, fmt::format("{} (see isochron --help)", error.what())};
     } catch (const std::invalid_argument& error) {
         return Exit{2, error.what()};

@@ -26,7 +26,8 @@ glm::dvec3 bounded(const glm::dvec3& target) { return glm::clamp(target, -kFarth
 }  // namespace
 
 ViewChoice orbited(ViewChoice view, glm::dvec2 pixels, const Looking& at) {
-    const Stand stand = standOf(view, at.outline, at.size);
+    const Stand stand = standOf(view, at.outline, at.size, at.legend);
+    view.shift = stand.shift;
     view.distance = stand.distance;
     view.target = stand.target;
     const double degreesPerPixel = 180.0 / std::min(at.size.x, at.size.y);
@@ -37,7 +38,8 @@ ViewChoice orbited(ViewChoice view, glm::dvec2 pixels, const Looking& at) {
 }
 
 ViewChoice panned(ViewChoice view, glm::dvec2 pixels, const Looking& at) {
-    const Stand stand = standOf(view, at.outline, at.size);
+    const Stand stand = standOf(view, at.outline, at.size, at.legend);
+    view.shift = stand.shift;
     const glm::dvec2 by = onTarget(stand, at, pixels);
     view.distance = stand.distance;
     view.target = bounded(stand.target - by.x * stand.axes[0] - by.y * stand.axes[1]);
@@ -45,10 +47,12 @@ ViewChoice panned(ViewChoice view, glm::dvec2 pixels, const Looking& at) {
 }
 
 ViewChoice zoomed(ViewChoice view, double factor, glm::dvec2 cursor, const Looking& at) {
-    const Stand stand = standOf(view, at.outline, at.size);
+    const Stand stand = standOf(view, at.outline, at.size, at.legend);
+    view.shift = stand.shift;
     view.distance = std::clamp(stand.distance * factor, kNearest, kFarthest);
-    const glm::dvec2 offset = onTarget(stand, at, cursor - 0.5 * glm::dvec2(at.size)) *
-                              (1 - *view.distance / stand.distance);
+    const glm::dvec2 middle = 0.5 * glm::dvec2(at.size) * (1.0 + stand.shift * glm::dvec2(1, -1));
+    const glm::dvec2 offset =
+        onTarget(stand, at, cursor - middle) * (1 - *view.distance / stand.distance);
     view.target = bounded(stand.target + offset.x * stand.axes[0] + offset.y * stand.axes[1]);
     return view;
 }
@@ -56,6 +60,7 @@ ViewChoice zoomed(ViewChoice view, double factor, glm::dvec2 cursor, const Looki
 ViewChoice fitted(ViewChoice view) {
     view.distance.reset();
     view.target = glm::dvec3(0);
+    view.shift.reset();
     return view;
 }
 

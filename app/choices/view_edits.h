@@ -1,5 +1,6 @@
 // What a user does to the camera with a mouse, as functions of plain values. A view without a
-// distance gets the one and the target that it has, so that nothing moves but by the hand.
+// distance gets the one, the target and the shift that it has, so that nothing moves but by the
+// hand.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -15,6 +16,7 @@ namespace app {
 struct Looking {
     render::Outline outline;  // PlacedPoints::outline()
     glm::ivec2 size;
+    glm::dvec2 legend{0};  // legendOf() (camera.h)
 };
 
 // Dragged by so many pixels: half the picture's shorter side turns by 90 degrees. Elevation stays

@@ -76,8 +76,8 @@ std::string whyFlat(const Explorer& e, const timeseries::Grid& grid,
 DepthErrors errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step) {
     const Rung drawn{modelOf(e)};
     const auto outline = render::PlacedPoints::outlineOf(step.grid(), e.scale, e.map);
-    return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step,
-                         eyes(e.view, e.stereo, outline, e.size).front(), std::span(&drawn, 1));
+    return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step, eyes(e, outline).front(),
+                         std::span(&drawn, 1));
 }
 
 std::string errorText(const DepthErrors& errors) {

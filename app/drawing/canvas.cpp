@@ -334,8 +334,7 @@ void Canvas::drawPlacards(std::span<const render::Placard> placards,
 }
 
 std::vector<render::View> Canvas::eyesOf(const Shown& shown) const {
-    const Explorer& e = shown.explorer;
-    return eyes(e.view, e.stereo, state_->outline(shown), e.size);
+    return eyes(shown.explorer, state_->outline(shown));
 }
 
 bool Canvas::shows(const Explorer& data) const {

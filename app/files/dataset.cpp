@@ -176,8 +176,18 @@ void findStepThen(Dataset& dataset, Explorer& session) {
     const std::string kept = std::exchange(session.stepTime, "");
     std::optional<StepChoice>& steps = session.steps;
     if (kept.empty() || !steps || steps->last != steps->first) return;
-    const std::size_t step = stepThen(dataset, steps->first, kept);
+    const std::size_t then = steps->first, step = stepThen(dataset, then, kept);
     steps = StepChoice{step, step};
+    const timeseries::CursorSettings all;
+    timeseries::CursorSettings& play = session.play.time;
+    const bool isPart = play.first != all.first || play.last != all.last;
+    const bool isAnother = step != then || timeKept(*dataset.variable.time, step) != kept;
+    if (!isPart || !isAnother) return;
+    dataset.series.notes.push_back(
+        fmt::format("the session's steps {} to {}, which it played, were others: all play now",
+                    play.first, play.last));
+    play.first = all.first;
+    play.last = all.last;
 }
 
 std::string withCommas(std::uint64_t count) {

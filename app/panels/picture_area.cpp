@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/choices/camera.h"
 #include "app/choices/view_edits.h"
 #include "app/panels/widgets.h"
 
@@ -54,7 +55,8 @@ void PictureArea::handle(PanelContext& context, const render::Outline& outline) 
     ImGui::InvisibleButton("##picture", im(glm::max(at.size(), glm::vec2(1))),
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
     pointer_.reset();
-    const Looking looking{outline, exploration.explorer().size};
+    const Explorer& shown = exploration.explorer();
+    const Looking looking{outline, shown.size, legendOf(shown)};
     // With two eyes, of the one that it is over.
     const glm::dvec2 place = vec(io.MousePos) - at.min;
     const glm::dvec2 cursor = glm::mod(place, glm::dvec2(looking.size));

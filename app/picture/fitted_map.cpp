@@ -1,7 +1,7 @@
 #include "app/picture/fitted_map.h"
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
 
 #include "app/choices/choice_text.h"
 #include "app/picture/resolved.h"
@@ -38,7 +38,24 @@ const MapChoice* mapOf(const LayerChoice& layer) {
     return layer.color ? std::get_if<MapChoice>(&*layer.color) : nullptr;
 }
 
+// What data of that type have nearest to it.
+double nearestOf(timeseries::ValueType type, double value) {
+    if (type == timeseries::ValueType::F64) return value;
+    return type == timeseries::ValueType::F32 ? static_cast<float>(value) : std::round(value);
+}
+
 }  // namespace
+
+// Doubles are dense: of these the step shown has to begin there.
+std::optional<double> darkMapsData(const Extent& map, const RangeSet& ranges,
+                                   const timeseries::SortedStep& step) {
+    if (finiteEnds(ranges, map).hi != map.hi) return std::nullopt;
+    const double begin = (map.lo + kDarkEnd * map.hi) / (1 + kDarkEnd);
+    const double least = timeseries::toDouble(step.statistics().finiteMin);
+    const bool isDense = step.type() == timeseries::ValueType::F64;
+    const double data = isDense ? least : nearestOf(step.type(), begin);
+    return darkEnds({data, map.hi}).lo == map.lo ? std::optional(data) : std::nullopt;
+}
 
 void refitMaps(Explorer& next, const Explorer& now, const Explorer& before,
                std::span<const Extent> seen) {

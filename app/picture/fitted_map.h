@@ -1,10 +1,12 @@
 // Colour maps that span the ranges of their layers go on to do so while these are edited.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "app/choices/explorer.h"
 #include "app/choices/first_choice.h"
+#include "timeseries/index/sorted_step.h"
 
 namespace app {
 
@@ -14,5 +16,11 @@ namespace app {
 // of the data, those of the step shown first.
 void refitMaps(Explorer& next, const Explorer& now, const Explorer& before,
                std::span<const Extent> seen);
+
+// Where the data began that the program's own map of a range without a lower end was fitted to:
+// such a map's dark end lies below all of them. None of a map that begins elsewhere for all that
+// can be told.
+std::optional<double> darkMapsData(const Extent& map, const timeseries::RangeSet& ranges,
+                                   const timeseries::SortedStep& step);
 
 }  // namespace app

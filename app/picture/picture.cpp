@@ -97,7 +97,7 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
 }
 
 bool isMixed(const Explorer& e, const render::Scene& scene) {
-    return render::isMixed(scene, eyes(e.view, e.stereo, scene.placed.outline(), e.size).front());
+    return render::isMixed(scene, eyes(e, scene.placed.outline()).front());
 }
 
 render::Legend asDrawn(const Explorer& e, render::Legend legend) {

@@ -11,6 +11,7 @@
 
 #include "app/choices/choice_text.h"
 #include "app/picture/clip_counts.h"
+#include "app/picture/fitted_map.h"
 #include "app/picture/picture.h"
 #include "app/picture/range_label.h"
 #include "app/picture/resolved.h"
@@ -119,6 +120,34 @@ bool sweepsBeyond(const timeseries::SweepSettings& sweep, const RangeSet& kept) 
     return !(timeseries::unionOf(both) == kept);
 }
 
+// A colour bar's ends come from what was chosen alone, not from the step: they stand still while
+// time and sweep play, and an export, which sees one step at a time, has the same. An open end of a
+// range is the map's, which was taken from the data when the layer was made; of a map that begins
+// below these for its dark end, where they begin, or where the step's do if that is lower.
+void tellBar(render::LegendLayer& told, const LayerChoice& layer, const Extent& map,
+             const std::optional<Extent>& data, const timeseries::SortedStep& step) {
+    const RangeSet& ranges = layer.motion ? layer.motion->animation : layer.ranges;
+    double low = map.lo;
+    if (const auto begin = darkMapsData(map, ranges, step))
+        low = std::max(map.lo, std::min(*begin, data ? data->lo : *begin));
+    if (layer.motion) {  // a window leaves nothing out between the ranges that it swings through
+        const Extent ends = finiteEnds(ranges, {low, map.hi});
+        told.shown.emplace_back(ends.lo, ends.hi);
+        return;
+    }
+    for (const Range& range : ranges.ranges()) {
+        const double lo = timeseries::toDouble(range.lo.value),
+                     hi = timeseries::toDouble(range.hi.value);
+        if (lo == kInfinity || hi == -kInfinity) continue;  // no place on a bar
+        told.openBelow = told.openBelow || lo == -kInfinity;
+        told.openAbove = told.openAbove || hi == kInfinity;
+        told.shown.emplace_back(std::isinf(lo) ? std::min(low, hi) : lo,
+                                std::isinf(hi) ? std::max(map.hi, lo) : hi);
+    }
+    if (told.shown.empty()) told.shown.emplace_back(map.lo, map.hi);
+    told.openBelow = told.openBelow && told.shown.front().first <= map.lo;
+}
+
 }  // namespace
 
 bool isOfCells(const std::string& note) {
@@ -130,33 +159,23 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
     render::Legend legend;
     const std::vector<std::string> amountOf = amounts(scene, e.clip.has_value());
     const std::string unit = render::shownUnit(variable.units);
-    // A colour bar's ends come from what was chosen alone, not from the step: they stand still
-    // while time and sweep play, and an export, which sees one step at a time, has the same. An
-    // open end of a range is the map's, which was taken from the data when the layer was made.
-    const auto add = [&](std::string range, const RangeSet& span) {
+    const auto add = [&](std::string range, const LayerChoice& layer) {
         const std::size_t k = legend.layers.size();
         render::LegendLayer& told = legend.layers.emplace_back(
             render::LegendLayer{scene.layers[k].style, std::move(range), amountOf[k]});
-        if (const auto* byValue = std::get_if<render::ByValue>(&told.style.color)) {
-            const Extent ends = finiteEnds(span, {byValue->lo, byValue->hi});
-            told.shown.emplace(ends.lo, ends.hi);
-            constexpr double kEndless = std::numeric_limits<double>::infinity();
-            const Extent open = finiteEnds(span, {-kEndless, kEndless});
-            told.openBelow = std::isinf(open.lo);
-            told.openAbove = std::isinf(open.hi);
-        }
+        if (const auto* byValue = std::get_if<render::ByValue>(&told.style.color))
+            tellBar(told, layer, {byValue->lo, byValue->hi}, extentOf(e, scene.step), scene.step);
     };
     for (const LayerChoice& layer : e.layers) {
         if (!layer.visible) continue;
         if (layer.motion)
             add(sweptText(timeseries::ValueSweep(*layer.motion), tick) +
                     (unit.empty() ? "" : " " + unit),
-                layer.motion->animation);
+                layer);
         else if (const std::string classes = classLabel(layer.ranges, variable); !classes.empty())
-            add(fmt::format("{}: {}", rangeLabel(layer.ranges, variable.units), classes),
-                layer.ranges);
+            add(fmt::format("{}: {}", rangeLabel(layer.ranges, variable.units), classes), layer);
         else
-            add(rangeLabel(layer.ranges, variable.units), layer.ranges);
+            add(rangeLabel(layer.ranges, variable.units), layer);
     }
 
     legend.title = variable.longName.empty() ? variable.name : variable.longName;

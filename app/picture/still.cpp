@@ -21,7 +21,7 @@ const glm::dvec3 kBackground = render::linearFromSrgb8(13, 17, 23);
 DrawnStill drawStill(const Still& still, render::FrameRenderer& renderer, render::GlStep& onGpu,
                      const render::Extras& extras, const std::filesystem::path& file) {
     const Explorer& e = still.explorer;
-    const auto views = eyes(e.view, e.stereo, still.placed.outline(), e.size);
+    const auto views = eyes(e, still.placed.outline());
     Picture picture =
         makePicture(e, still.variable, still.stepIndex, still.step, still.placed, still.tick);
     DrawnStill drawn{file, e.stereo.mode, {}, {}, isMixed(e, picture.scene), 0};

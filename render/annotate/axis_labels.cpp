@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
@@ -54,11 +55,11 @@ class Labelling {
             along, [&](const Stretch& stretch) { return stretch.edge.side == shown.edge.side; });
         if (own == along.end() || own->pixels() < page_.line()) return;
         if (isSeenEndOn(shown.edge.axis)) return;
-        const auto names = namesOf(shown.edge.axis);
         const auto others = stretchesBut(shown.edge.axis);
-        for (const glm::dvec2& side : {own->outward, -own->outward})
-            for (const Words& name : names)
-                if (placeAlong(shown, *own, others, side, name)) return;
+        for (const std::vector<Words>& names : namesOf(shown.edge.axis))
+            for (const glm::dvec2& side : {own->outward, -own->outward})
+                for (const Words& name : names)
+                    if (placeAlong(shown, *own, others, side, name)) return;
     }
 
     std::vector<AxisLabels>& axes() { return axes_; }
@@ -70,21 +71,26 @@ class Labelling {
         return !within[axis] && within[(axis + 1) % 3] && within[(axis + 2) % 3];
     }
 
-    // The name with its unit, alone, and ever shorter.
-    std::vector<Words> namesOf(int index) const {
+    // The name, ever shorter, with its unit, without which numbers mean nothing; then the unit
+    // alone.
+    std::array<std::vector<Words>, 2> namesOf(int index) const {
         const timeseries::Axis& axis = page_.grid.axes()[static_cast<std::size_t>(index)];
         std::string name = axis.name, unit = shownUnit(axis.units);
         for (std::string* text : {&name, &unit}) std::ranges::replace(*text, '\n', ' ');
+        if (!unit.empty()) unit = fmt::format("({})", unit);
         std::vector<Words> names;
-        const auto add = [&](std::string text) {
+        const auto add = [&](const std::string& beginning) {
+            const bool both = !beginning.empty() && !unit.empty();
+            std::string text = beginning + (both ? " " : "") + unit;
             if (!text.empty() && (names.empty() || names.back().text != text))
                 names.push_back(wordsOf(page_, std::move(text)));
         };
-        if (!unit.empty()) add(fmt::format("{} ({})", name, unit));
         add(name);
-        for (const double lines : {12.0, 7.0, 4.0})
+        for (const double lines : {12.0, 7.0, 4.0, 2.0})
             add(shortened(page_.font, page_.style, name, static_cast<float>(lines * page_.line())));
-        return names;
+        std::vector<Words> unitAlone;
+        if (!unit.empty()) unitAlone.push_back(wordsOf(page_, unit));
+        return {std::move(names), std::move(unitAlone)};
     }
 
     std::vector<Stretch> stretchesBut(int axis) const {

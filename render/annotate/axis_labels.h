@@ -8,8 +8,8 @@
 // Numbers come before names, those of z before those of x and y, so that no name takes a number's
 // place. A name lies along the edge whose numbers it is of, nearer to it than to any other axis'
 // edges and off their numbers: beyond its own or between them; where there is no room for all of it
-// without its unit, then shortened, then on the box, else nowhere. An axis that is seen end-on
-// through the box has none.
+// shortened, with its unit all the same, then on the box; else its unit alone, or nowhere. An axis
+// that is seen end-on through the box has none.
 #pragma once
 
 #include <optional>

@@ -5,19 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <glm/common.hpp>
 
 #include "render/annotate/axes.h"
+#include "render/annotate/color_bar.h"
 #include "render/annotate/fitted_text.h"
-#include "render/annotate/ticks.h"
 #include "render/image/color.h"
 
 namespace render {
 namespace {
 
-const glm::vec3 kText(linearFromSrgb8(230, 233, 239)), kQuiet(linearFromSrgb8(148, 157, 172)),
-    kFaint(linearFromSrgb8(128, 137, 152)), kFrame(linearFromSrgb8(58, 66, 79));
+const glm::vec3 kText(linearFromSrgb8(230, 233, 239)), kFaint(linearFromSrgb8(128, 137, 152));
 
 // What is said, from everything to the least; a picture takes the first that fits it.
 struct Detail {
@@ -34,6 +32,22 @@ constexpr std::array kDetails = {
     Detail{1, false, false, false, true},    Detail{0, false, false, false, true},
     Detail{0, false, false, false, false}};
 
+// In lines of a label.
+constexpr float kTimeLine = 1.2f;                       // the time, and that there is nothing at it
+constexpr float kAboveLayers = 0.45f;                   // free
+constexpr float kLayer = 1.25f, kAmount = 1, kBar = 2;  // a layer's range, what stands below it
+constexpr float kBarWidth = 13, kLeastColumn = 19;
+constexpr float kPlate = 0.35f, kSoftEdge = 0.4f;  // around the text
+
+float lineOf(glm::ivec2 size) { return static_cast<float>(labelStyle(size).linePixels); }
+// Around all that is said.
+float marginOf(glm::ivec2 size) {
+    return std::round(
+        std::min(0.9f * lineOf(size), 0.06f * static_cast<float>(std::min(size.x, size.y))));
+}
+// Of the picture's height, what layers may take: the middle of the picture is the field's.
+float roomOfLayers(const Detail& detail) { return detail.amounts ? 0.4f : 0.6f; }
+
 class Writer {
  public:
     Writer(const Legend& legend, const Font& font, glm::ivec2 size)
@@ -42,9 +56,9 @@ class Writer {
           size_(size),
           label_(labelStyle(size)),
           title_(titleStyle(size)),
-          line_(static_cast<float>(label_.linePixels)),
-          margin_(std::round(std::min(0.9f * line_, 0.06f * std::min(size_.x, size_.y)))),
-          column_(std::clamp(0.4f * size_.x, std::min(19 * line_, size_.x - 2 * margin_),
+          line_(lineOf(size)),
+          margin_(marginOf(size)),
+          column_(std::clamp(0.4f * size_.x, std::min(kLeastColumn * line_, size_.x - 2 * margin_),
                              size_.x - 2 * margin_)) {}
 
     FlatMesh write() {
@@ -60,9 +74,10 @@ class Writer {
     float titleHeight() const {
         return legend_.title.empty() ? 0 : static_cast<float>(title_.linePixels);
     }
-    // Time, and that there is nothing at it.
     float timeHeight() const {
-        return ((legend_.time.empty() ? 0 : 1.2f) + (legend_.emptiness.empty() ? 0 : 1.2f)) * line_;
+        const float lines =
+            (legend_.time.empty() ? 0 : kTimeLine) + (legend_.emptiness.empty() ? 0 : kTimeLine);
+        return lines * line_;
     }
     std::vector<std::string> noteLines(const Detail& detail) const {
         std::vector<std::string> lines;
@@ -86,11 +101,7 @@ class Writer {
     // The quiet text of a layer: what its colours span where no scale says it, and its amount.
     std::string aside(const LegendLayer& layer, const Detail& detail) const {
         std::string words;
-        if (byValue(layer) && !detail.scales) {
-            const Bar shown = barOf(layer);
-            words = shown.below + endText(shown, shown.lo);
-            if (shown.hi > shown.lo) words += " \u2013 " + shown.above + endText(shown, shown.hi);
-        }
+        if (byValue(layer) && !detail.scales) words = spanText(barOf(layer));
         if (detail.amounts && !layer.amount.empty())
             words += (words.empty() ? "" : ", ") + layer.amount;
         return words;
@@ -105,15 +116,15 @@ class Writer {
                textWidth(layer, detail);
     }
     float height(const LegendLayer& layer, const Detail& detail) const {
-        float lines = 1.25f;
-        if (isBelow(layer, detail)) lines += 1;
-        if (detail.scales && byValue(layer)) lines += 2.0f;
+        float lines = kLayer;
+        if (isBelow(layer, detail)) lines += kAmount;
+        if (detail.scales && byValue(layer)) lines += kBar;
         return lines * line_;
     }
     float columnHeight(const Detail& detail) const {
         float sum = titleHeight() + (detail.time ? timeHeight() : 0);
         if (detail.layers && !legend_.layers.empty()) {
-            sum += 0.45f * line_;
+            sum += kAboveLayers * line_;
             for (const LegendLayer& layer : legend_.layers) sum += height(layer, detail);
         }
         return sum;
@@ -128,8 +139,7 @@ class Writer {
         // Wrapped notes, too, leave the middle to the field.
         if (detail.notes > 1 && notes * line_ > 0.25f * room) return false;
         if (used + (notes > 0 ? (notes + 1) * line_ : 0) > room) return false;
-        // The middle of the picture is the field's.
-        return !detail.layers || used <= (detail.amounts ? 0.4f : 0.6f) * room;
+        return !detail.layers || used <= roomOfLayers(detail) * room;
     }
 
     void text(FontStyle style, std::string words, glm::vec2 topLeft, float width,
@@ -143,11 +153,11 @@ class Writer {
         text(title_, legend_.title, {margin_, y}, wide(), kText);
         y += titleHeight();
         if (detail.time) {
-            text(label_, legend_.time, {margin_, y + 0.1f * line_}, wide(), kQuiet);
+            text(label_, legend_.time, {margin_, y + 0.1f * line_}, wide(), kLegendQuiet);
             y += timeHeight();
             text(label_, legend_.emptiness, {margin_, y - 1.1f * line_}, wide(), kText);
         }
-        y += 0.45f * line_;
+        y += kAboveLayers * line_;
         if (detail.layers) {
             for (const LegendLayer& layer : legend_.layers) {
                 drawLayer(layer, detail, y);
@@ -158,7 +168,7 @@ class Writer {
         const float bottom = size_.y - margin_ - line_ * static_cast<float>(notes.size());
         if (!detail.layers && !legend_.layers.empty() && y + line_ < bottom)
             text(label_, fmt::format("{} layers: no room for their legend", legend_.layers.size()),
-                 {margin_, y}, wide(), kQuiet);
+                 {margin_, y}, wide(), kLegendQuiet);
         y = bottom;
         for (const std::string& line : notes) {
             text(label_, line, {margin_, y}, wide(), kFaint);
@@ -175,13 +185,15 @@ class Writer {
         float y = top + line_;
         const std::string words = aside(layer, detail);
         if (isBelow(layer, detail)) {
-            text(label_, words, {left, y}, width, kQuiet);
+            text(label_, words, {left, y}, width, kLegendQuiet);
             y += line_;
         } else if (isBeside(layer, detail)) {
             const float past = font_.measure(layer.range, label_).x + 0.7f * line_;
-            text(label_, words, {left + past, top}, width - past, kQuiet);
+            text(label_, words, {left + past, top}, width - past, kLegendQuiet);
         }
-        if (byValue(layer) && detail.scales) drawScale(barOf(layer), y + 0.2f * line_);
+        if (byValue(layer) && detail.scales)
+            drawScale(mesh_, font_, label_, barOf(layer), {margin_, y + 0.2f * line_},
+                      std::round(std::min(column_, kBarWidth * line_)));
     }
 
     // Full of the colour that much of the layer has: one unit length of it adds less. Of none at
@@ -195,7 +207,7 @@ class Writer {
             if (layer.style.opacity > 0) mesh_.rect(from + rim, to - rim, glm::vec4(color, 1));
             frame(from, to, rim, glm::vec4(color, 1));
         } else {
-            bar(barOf(layer), from, to);
+            drawBar(mesh_, barOf(layer), from, to);
         }
     }
 
@@ -206,87 +218,12 @@ class Writer {
         mesh_.rect({to.x - rim, from.y + rim}, {to.x, to.y - rim}, color);
     }
 
-    // What a colour bar covers: the layer's values, which need not be the whole map's.
-    struct Bar {
-        ByValue style;
-        double lo, hi;
-        std::string below, above;  // before the numbers of its ends
-    };
-    static Bar barOf(const LegendLayer& layer) {
+    static ColorBar barOf(const LegendLayer& layer) {
         const auto& style = std::get<ByValue>(layer.style.color);
-        const auto [lo, hi] = layer.shown.value_or(std::pair(style.lo, style.hi));
-        return {style, lo, hi, layer.openBelow ? "\u2264 " : "", layer.openAbove ? "\u2265 " : ""};
-    }
-
-    // Framed: the dark end of many maps is the background's colour.
-    void bar(const Bar& shown, glm::vec2 from, glm::vec2 to) {
-        frame(from - 1.0f, to + 1.0f, 1, glm::vec4(kFrame, 1));
-        constexpr int kStops = 64;
-        std::vector<glm::vec3> stops;
-        for (int i = 0; i <= kStops; ++i) {
-            const double value = std::lerp(shown.lo, shown.hi, static_cast<double>(i) / kStops);
-            stops.push_back(shown.style.map.at(mapPosition(shown.style, value)));
-        }
-        mesh_.gradient(from, to, stops);
-    }
-
-    // The colour bar with the values of its ends, and of a round one between where there is room.
-    void drawScale(const Bar& shown, float top) {
-        const glm::vec2 from = glm::round(glm::vec2(margin_, top));
-        const float width = std::round(std::min(column_, 13 * line_));
-        const glm::vec2 to = from + glm::vec2(width, std::round(0.5f * line_));
-        bar(shown, from, to);
-        const float below = to.y + 0.12f * line_, gap = 0.8f * line_;
-        const auto widthOf = [&](const std::string& words) {
-            return font_.measure(words, label_).x;
-        };
-        const std::string least = endText(shown, shown.lo), lo = shown.below + least;
-        // Where the bar is too short for both, the upper's last digits still tell them apart.
-        const std::string hi =
-            shown.above +
-            withoutCommonStart({least, endText(shown, shown.hi)}, [&](const auto& end) {
-                return end == least ||
-                       widthOf(shown.above + end) + 0.5f * gap + widthOf(lo) <= width;
-            })[1];
-        if (!(shown.hi > shown.lo)) {
-            text(label_, lo, {from.x, below}, width, kQuiet);
-            return;
-        }
-        text(label_, lo, {from.x, below}, width, kQuiet);
-        const float right = std::round(to.x - widthOf(hi));
-        if (right < from.x + widthOf(lo) + 0.5f * gap) return;
-        text(label_, hi, {right, below}, to.x - right + 1, kQuiet);
-        const double middle = roundMiddle(shown);
-        const std::string words = tickTexts(std::array{middle})[0];
-        const float at =
-            from.x + width * static_cast<float>((middle - shown.lo) / (shown.hi - shown.lo));
-        const float left = std::round(at - 0.5f * widthOf(words));
-        if (left < from.x + widthOf(lo) + gap || left + widthOf(words) > right - gap) return;
-        text(label_, words, {left, below}, to.x - left, kQuiet);
-        const float half = std::max(0.5f, std::round(line_ / 16) / 2);
-        mesh_.rect({std::round(at - half), to.y + 1}, {std::round(at + half), to.y + 0.22f * line_},
-                   glm::vec4(kQuiet, 1));
-    }
-
-    static double roundMiddle(const Bar& shown) {
-        const double middle = 0.5 * shown.lo + 0.5 * shown.hi;
-        const auto ticks = niceTicks(shown.lo, shown.hi, 3);
-        return *std::min_element(ticks.begin(), ticks.end(), [&](double a, double b) {
-            return std::abs(a - middle) < std::abs(b - middle);
-        });
-    }
-
-    // Four digits of the span tell any two places on a bar apart.
-    static std::string endText(const Bar& shownBar, double value) {
-        double shown = value;
-        const double span = 0.5 * shownBar.hi - 0.5 * shownBar.lo;
-        if (span > 0 && value != 0) {
-            const auto exponent = [](double x) { return std::floor(std::log10(std::abs(x))); };
-            const int digits = static_cast<int>(exponent(value) - exponent(span)) + 3;
-            const std::string text = fmt::format("{:.{}e}", value, std::clamp(digits, 0, 16));
-            shown = digits < 0 ? 0 : std::strtod(text.c_str(), nullptr);
-        }
-        return tickTexts(std::array{shown})[0];
+        ColorBar bar{style, layer.shown, layer.openBelow ? "\u2264 " : "",
+                     layer.openAbove ? "\u2265 " : ""};
+        if (bar.parts.empty()) bar.parts.emplace_back(style.lo, style.hi);
+        return bar;
     }
 
     const Legend& legend_;
@@ -299,20 +236,31 @@ class Writer {
 
 }  // namespace
 
+glm::dvec2 legendCorner(std::size_t bars, std::size_t swatches, glm::ivec2 pictureSize) {
+    const float line = lineOf(pictureSize), margin = marginOf(pictureSize);
+    const float layers =
+        kLayer * static_cast<float>(bars + swatches) + kBar * static_cast<float>(bars);
+    const float texts = static_cast<float>(titleStyle(pictureSize).linePixels) +
+                        line * (kTimeLine + (layers > 0 ? kAboveLayers + layers : 0));
+    const float most =
+        roomOfLayers(kDetails.front()) * (static_cast<float>(pictureSize.y) - 2 * margin);
+    const float plate = (kPlate + kSoftEdge) * line;
+    const float column = (swatches > 0 ? kLeastColumn : kBarWidth) * line;
+    return {margin + column + plate, margin + std::min(texts, most) + plate};
+}
+
 FlatMesh legendMesh(const Legend& legend, const Font& font, glm::ivec2 pictureSize) {
     return Writer(legend, font, pictureSize).write();
 }
 
 namespace {
 
-float softEdge(glm::ivec2 pictureSize) {
-    return 0.4f * static_cast<float>(labelStyle(pictureSize).linePixels);
-}
+float softEdge(glm::ivec2 pictureSize) { return kSoftEdge * lineOf(pictureSize); }
 
 std::vector<PixelRect> platesUnder(const FlatMesh& legend, glm::ivec2 pictureSize) {
     std::vector<PixelRect> plates;
     for (PixelRect plate : legend.covers()) {
-        plate = plate.grown(0.35 * labelStyle(pictureSize).linePixels);
+        plate = plate.grown(static_cast<double>(kPlate * lineOf(pictureSize)));
         // It may join plates that were apart.
         for (std::size_t i = plates.size(); i-- > 0;) {
             if (!overlap(plate, plates[i])) continue;

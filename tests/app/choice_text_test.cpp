@@ -150,6 +150,14 @@ TEST(ChoiceText, ScalesArePositiveAndSuchAsAPictureHasRoomFor) {
         expectRefused([](std::string_view t) { parseScale(t); }, text);
 }
 
+TEST(ChoiceText, AShiftIsTwoSharesOfThePictureOrTheProgramsOwn) {
+    for (const char* text : {"auto", "0,0", "0.25,-1", "-0.0625,0.5"})
+        EXPECT_EQ(shiftText(parseShift(text)), text);
+    EXPECT_FALSE(parseShift("auto"));
+    for (const char* text : {"", "0", "0,1.01", "0,0,0", "nan,0", "inf,0", "x,y", "Auto", "0 0"})
+        expectRefused([](std::string_view t) { parseShift(t); }, text);
+}
+
 TEST(ChoiceText, AViewHasTwoAnglesAndPerhapsADistance) {
     const glm::dvec3 target(1, 2, 3);
     for (const char* text : {"-400,90,0.1", "30,20", "0.125,-7"}) {
@@ -158,11 +166,15 @@ TEST(ChoiceText, AViewHasTwoAnglesAndPerhapsADistance) {
         EXPECT_EQ(viewText(view), text);
         EXPECT_EQ(view.target, target);
     }
+    const auto inTheMiddle = [](ViewChoice view) {
+        view.shift = glm::dvec2(0);
+        return view;
+    };
     ViewChoice near{1, 2, 3};
     takeView(near, "-400,90,0.1");
-    EXPECT_EQ(near, (ViewChoice{-400, 90, 0.1}));
+    EXPECT_EQ(near, inTheMiddle({-400, 90, 0.1}));
     takeView(near, "30,20");
-    EXPECT_EQ(near, (ViewChoice{30, 20, {}}));
+    EXPECT_EQ(near, inTheMiddle({30, 20, {}}));
     for (const char* text : {"", "30", "30,20,0", "30,20,-1", "30,20,4,5", "nan,0", "inf,0",
                              "30,20,inf", "30,20,nan", "x,y", "30,", ",20", "30 20"})
         expectRefused(

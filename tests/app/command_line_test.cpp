@@ -89,12 +89,13 @@ TEST(CommandLine, SaysNothingThatGoesWithoutSaying) {
     e.steps = StepChoice{12, 12};
     e.layers = {{timeseries::RangeSet::parse("600:max"), glm::dvec3(1, 0, 0), 0.25}};
     EXPECT_EQ(shellText(renderArguments(e, "/data/out/fire.png", "/data")),
-              "render fire.nc --variable=T --step=12 --view=30,20 --range=600:max "
+              "render fire.nc --variable=T --step=12 --view=30,20 --shift=auto --range=600:max "
               "'--color=#ff0000' --opacity=0.25 --output=out/fire.png");
     // No way up: it would lead elsewhere from the next folder.
-    EXPECT_EQ(shellText(renderArguments(e, "/data/out/fire.png", "/data/out")),
-              "render /data/fire.nc --variable=T --step=12 --view=30,20 --range=600:max "
-              "'--color=#ff0000' --opacity=0.25 --output=fire.png");
+    EXPECT_EQ(
+        shellText(renderArguments(e, "/data/out/fire.png", "/data/out")),
+        "render /data/fire.nc --variable=T --step=12 --view=30,20 --shift=auto --range=600:max "
+        "'--color=#ff0000' --opacity=0.25 --output=fire.png");
 }
 
 // What the shell hands to a program that is called so.

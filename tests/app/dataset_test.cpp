@@ -135,6 +135,30 @@ timeseries::Variable sized(const char* name, std::array<std::size_t, 3> n, std::
     return v;
 }
 
+// They are kept as numbers, which are of other steps where that one's is another.
+TEST(StepThen, TheInAndOutPointsGoWhereTheyAreOfOtherSteps) {
+    const auto folder = tests::freshFolder();
+    const auto was = open(timed(folder, "was.nc", {0, 1.5, 2, 3}), "v");
+    Explorer session;
+    session.steps = StepChoice{2, 2};
+    session.stepTime = timeKept(*was.variable.time, 2);
+    session.play.time.first = 1;
+    session.play.time.last = 2;
+    const auto inNow = [&](const std::vector<double>& times) {
+        OpenDataset now = open(timed(folder, "now.nc", times), "v");
+        Explorer e = session;
+        findStepThen(now, e);
+        return std::tuple(e.steps->first, e.play.time.first, e.play.time.last,
+                          now.series.notes.size());
+    };
+    const timeseries::CursorSettings all;
+    EXPECT_EQ(inNow({0, 1.5, 2, 3, 4}), std::tuple(2u, 1u, 2u, 0u));
+    EXPECT_EQ(inNow({1.5, 2, 3}), std::tuple(1u, all.first, all.last, 2u));
+    EXPECT_EQ(inNow({0, 1.5, 2.5}), std::tuple(2u, all.first, all.last, 2u));
+    session.play.time = all;
+    EXPECT_EQ(inNow({1.5, 2, 3}), std::tuple(1u, all.first, all.last, 1u)) << "all played";
+}
+
 TEST(StepThen, IsFoundByItsTimeInASeriesThatHasOthersBefore) {
     const auto folder = tests::freshFolder();
     const auto was = open(timed(folder, "was.nc", {0, 1.5, 2}), "v");

@@ -38,7 +38,6 @@ struct Mirror {
         const Explorer before = now;
         now = from.back();
         now.size = before.size;
-        now.play.tick = before.play.tick;
         from.pop_back();
         gesture.clear();
     }
@@ -128,16 +127,57 @@ TEST(History, KnowsWhatAGestureThatGoesOnBeganFrom) {
     EXPECT_TRUE(history.before("drag") == state(2));
 }
 
-TEST(History, SizeAndTickStayThroughUndoAndRedo) {
+TEST(History, TheSizeStaysThroughUndoAndRedo) {
     History history(state(0));
     history.edit(state(1));
-    history.replace(state(1, 7, 640));
+    history.replace(state(1, 0, 640));
     history.undo();
-    EXPECT_TRUE(history.now() == state(0, 7, 640));
-    history.replace(state(0, 9, 800));
+    EXPECT_TRUE(history.now() == state(0, 0, 640));
+    history.replace(state(0, 0, 800));
     EXPECT_TRUE(history.canRedo()) << "play forgets nothing";
     history.redo();
-    EXPECT_TRUE(history.now() == state(1, 9, 800));
+    EXPECT_TRUE(history.now() == state(1, 0, 800));
+}
+
+// Of one variable, a window of this half width.
+Explorer swept(double delta, std::int64_t tick, double frequency = 0.1) {
+    Explorer e = state(0, tick);
+    e.layers.emplace_back();
+    e.layers[0].motion = timeseries::SweepSettings{
+        .animation = timeseries::RangeSet::parse("0:10"), .delta = delta, .frequency = frequency};
+    return e;
+}
+
+TEST(History, ASweepStandsWhereItIsWhileItIsTheSame) {
+    Explorer other = swept(1, 5);
+    other.light = render::Light::Full;
+    History history(swept(1, 5));
+    history.edit(other);
+    other.play.tick = 9;
+    history.replace(other);
+    history.undo();
+    EXPECT_TRUE(history.now() == swept(1, 9));
+    history.edit(swept(1, 9, 0.5));
+    history.replace(swept(1, 12, 0.5));
+    history.undo();
+    EXPECT_TRUE(history.now() == swept(1, 12)) << "slower, where it has come to";
+}
+
+TEST(History, ASweepThatComesBackStandsWhereItWasLeft) {
+    const Explorer still = state(0), another = [] {
+        Explorer e = swept(1, 3);
+        e.variable = "another";
+        return e;
+    }();
+    for (const Explorer& next : {still, another, swept(2, 4)}) {
+        History history(swept(1, 70));
+        history.replace(swept(1, 90));
+        history.edit(next);
+        history.undo();
+        EXPECT_TRUE(history.now() == swept(1, 90));
+        history.redo();
+        EXPECT_TRUE(history.now() == next);
+    }
 }
 
 TEST(History, KeepsTheLastSteps) {

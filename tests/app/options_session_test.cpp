@@ -137,7 +137,10 @@ TEST_F(OptionsWithSession, AnOptionBesideItWinsAndLeavesTheRest) {
     expectOnly({"--scale", "1,1,1"}, [](Explorer& e) { e.scale = glm::dvec3(1); });
     expectOnly({"--view", "9,8"}, [](Explorer& e) {
         e.view = {9, 8, {}, e.view.target};  // another target is --target's
+        e.view.shift = glm::dvec2(0);
     });
+    expectOnly({"--shift", "0.1,-1"}, [](Explorer& e) { e.view.shift = glm::dvec2(0.1, -1); });
+    expectOnly({"--shift", "auto"}, [](Explorer& e) { e.view.shift.reset(); });
     expectOnly({"--target", "1,2,3"}, [](Explorer& e) { e.view.target = {1, 2, 3}; });
     expectOnly({"--orthographic"},
                [](Explorer& e) { e.view.projection = Projection::Orthographic; });

@@ -49,14 +49,14 @@ TEST(Options, HelpListsEveryOptionOfRenderAndView) {
     const std::string help = std::get<Exit>(parsed({"render", "--help"})).text;
     const std::string helpOfView = std::get<Exit>(parsed({"view", "--help"})).text;
     for (const char* option :
-         {"--session",   "--variable", "--step",         "--range",       "--keep",
-          "--color",     "--colormap", "--opacity",      "--splat",       "--splat-size",
-          "--order",     "--sweep",    "--delta",        "--timer-steps", "--timer-step",
-          "--frequency", "--swing",    "--clip",         "--scale",       "--view",
-          "--size",      "--stereo",   "--eye-distance", "--convergence", "--channel",
-          "--device",    "--output",   "--hide",         "--target",      "--orthographic",
-          "--tick",      "--portable", "--flip",         "--name-axis",   "--splatter",
-          "--model",     "--no-legend"}) {
+         {"--session",   "--variable",  "--step",         "--range",       "--keep",
+          "--color",     "--colormap",  "--opacity",      "--splat",       "--splat-size",
+          "--order",     "--sweep",     "--delta",        "--timer-steps", "--timer-step",
+          "--frequency", "--swing",     "--clip",         "--scale",       "--view",
+          "--size",      "--stereo",    "--eye-distance", "--convergence", "--channel",
+          "--device",    "--output",    "--hide",         "--target",      "--orthographic",
+          "--tick",      "--portable",  "--flip",         "--name-axis",   "--splatter",
+          "--model",     "--no-legend", "--shift"}) {
         EXPECT_THAT(help, HasSubstr(option));
         const bool isOfFiles =
             std::set<std::string_view>{"--device", "--splatter", "--channel", "--portable"}
@@ -272,6 +272,7 @@ TEST(Options, BadValuesAreRefusedByTheNameOfTheirOption) {
         {"clip", {"", "0:1", "1:0,0:1,0:1"}},
         {"scale", {"", "1", "0,1,1", "1,1,nan", "1e300,1,1", "1,1e-13,1", "1e300"}},
         {"view", {"", "1", "a,b", "1,2,0", "1,2,1e7", "1,2,1e-7"}},
+        {"shift", {"", "0", "0,1.5", "a,b", "nan,0", "0,0,0"}},
         {"size", {"", "0x0", "1x", "16385x1", "-1x1"}},
         {"stereo", {"", "both"}},
         {"eye-distance", {"", "-1", "nan", "inf", "a", "1e7"}},

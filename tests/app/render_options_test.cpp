@@ -70,6 +70,8 @@ TEST(Options, EveryRenderOptionArrives) {
                                           "-30,45,2.5",
                                           "--target",
                                           "0.5,-1,2e-3",
+                                          "--shift",
+                                          "0.25,-0.5",
                                           "--orthographic",
                                           "--size",
                                           "320x240",
@@ -98,7 +100,10 @@ TEST(Options, EveryRenderOptionArrives) {
     EXPECT_EQ(e.order, render::Order::None);
     EXPECT_EQ(e.clip, parseClip("0:1,2:3,min:max"));
     EXPECT_EQ(e.scale, glm::dvec3(1, 2, 3));
-    EXPECT_EQ(e.view, (ViewChoice{-30, 45, 2.5, {0.5, -1, 2e-3}, Projection::Orthographic}));
+    EXPECT_EQ(
+        e.view,
+        (ViewChoice{
+            -30, 45, 2.5, {0.5, -1, 2e-3}, Projection::Orthographic, glm::dvec2(0.25, -0.5)}));
     EXPECT_EQ(e.size, glm::ivec2(320, 240));
     EXPECT_EQ(e.stereo, (StereoChoice{Stereo::MultiView, 0.1, 4.0}));
     EXPECT_TRUE(options.opticalDepth && options.splatCount);

@@ -150,6 +150,8 @@ TEST(Session, ValuesOutOfBoundsAreRefused) {
     for (const json& target : {json{1, 2}, json{1, 2, 3, 4}, json{1e7, 0, 0}})
         expectRefused(with("view", {{"target", target}}), "session.view.target");
     expectRefused(with("view", {{"projection", "isometric"}}), "session.view.projection");
+    for (const char* shift : {"", "0", "0,1.5", "left"})
+        expectRefused(with("view", {{"shift", shift}}), "session.view.shift");
     for (const json& play :
          {json{{"first", -1}}, json{{"first", 3}, {"last", 2}}, json{{"stride", 0}},
           json{{"ending", "never"}}, json{{"stepsPerSecond", -1}}, json{{"tick", -1}}})

@@ -60,6 +60,14 @@ TEST(Session, AnExplorerWithNothingChosenComesBack) {
     EXPECT_TRUE(fromJson(toJson({}, "/a"), "/a") == Explorer{});
 }
 
+// As sessions were written before a picture was placed beside its legend: a view and no shift.
+TEST(Session, AViewOfWhichNoShiftIsSaidStandsInTheMiddle) {
+    json old = toJson({}, "/a");
+    ASSERT_EQ(old["view"]["shift"], "auto");
+    old["view"].erase("shift");
+    EXPECT_EQ(fromJson(old, "/a").view.shift, glm::dvec2(0));
+}
+
 TEST(Session, WhatNobodyTouchedIsNotWritten) {
     const json plain = toJson({}, "/a");
     EXPECT_FALSE(plain.contains("play"));

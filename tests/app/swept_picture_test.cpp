@@ -27,7 +27,7 @@ TEST_F(PictureOfARamp, ASweepsLegendStandsStillButForItsContour) {
     for (std::int64_t tick = 0; tick < 256; tick += 7) {
         const Picture p = makePicture(r, about_, 1, *step_, placed_, tick);
         const render::LegendLayer& told = p.legend.layers.at(0);
-        EXPECT_EQ(told.shown, std::pair(100.123456789, 899.987654321));
+        EXPECT_EQ(told.shown, std::vector{std::pair(100.123456789, 899.987654321)});
         // To a fiftieth of the window's half width, 0.4: one decimal.
         const double contour = timeseries::ValueSweep(*sweepOf(r)).contour(tick);
         EXPECT_EQ(told.range, fmt::format("{:.1f} ± 20 K", contour));

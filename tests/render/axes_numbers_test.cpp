@@ -287,15 +287,18 @@ TEST(Axes, NamesThatAreTooWideAreShortenedBesideTheirEdge) {
     const std::string name = "height above the reference ellipsoid";
     const Grid grid({tests::measuredAxis("x", "m", 0, 1, 5), tests::measuredAxis("y", "m", 0, 1, 5),
                      tests::measuredAxis(name, "m", 0, 1, 5)});
-    std::size_t whole = 0, nameAlone = 0, cut = 0;
+    std::size_t whole = 0, cut = 0;
     for (int width = 1400; width >= 500; width -= 10) {
         const Drawn d(grid, eyeAt(-60, 25, 3.2), {width, 600});
-        whole += d.label(name + " (m)").has_value();
-        nameAlone += !d.label(name + " (m)") && d.label(name);
-        cut += !d.label(name) && d.label("height") && d.label("\u2026");
+        const bool isWhole = d.label(name + " (m)").has_value();
+        bool isCut = false;
+        for (std::size_t n = 1; n < name.size(); ++n)
+            isCut = isCut || d.label(name.substr(0, n) + "\u2026 (m)");
+        whole += isWhole;
+        cut += isCut;
+        EXPECT_TRUE(isWhole || isCut || !d.label("height")) << "no name without its unit";
     }
     EXPECT_GT(whole, 0u);
-    EXPECT_GT(nameAlone, 0u);
     EXPECT_GT(cut, 0u);
 }
 

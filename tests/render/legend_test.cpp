@@ -61,6 +61,27 @@ TEST(Legend, CoversWhatItsGroundDoes) {
     EXPECT_TRUE(coveredByLegend({}, {800, 600}).empty());
 }
 
+// Numbers that change from step to step do not move a picture that is placed by it.
+TEST(Legend, ItsCornerHoldsThePlateOfWhatLayersSay) {
+    const LegendLayer bar{byValue(300, 1843.7), "\u2265 1600 K", "1,204 points, 0.56 %"},
+        swatch{constant(), "600 to 1600 K", "13,402 points, 6.2 %"};
+    for (const glm::ivec2 size : {glm::ivec2(1200, 900), {1920, 1080}, {800, 600}, {640, 480}})
+        for (const std::size_t bars : {0u, 1u, 2u})
+            for (const std::size_t swatches : {0u, 1u, 3u}) {
+                Legend legend{"T (K)", "1.10 s, step 13", {}, {}};
+                legend.layers.assign(bars, bar);
+                legend.layers.insert(legend.layers.end(), swatches, swatch);
+                glm::dvec2 reach(0);
+                for (const PixelRect& plate :
+                     coveredByLegend(legendMesh(legend, fontFor(size), size), size))
+                    reach = glm::max(reach, plate.hi);
+                const glm::dvec2 corner = legendCorner(bars, swatches, size);
+                EXPECT_LE(reach.x, corner.x + 1) << size.x << ' ' << bars << swatches;
+                EXPECT_LE(reach.y, corner.y + 1) << size.x << ' ' << bars << swatches;
+                EXPECT_GE(reach.y, 0.85 * corner.y) << size.x << ' ' << bars << swatches;
+            }
+}
+
 TEST(Legend, SaysEverythingInAnOrdinaryPicture) {
     for (const glm::ivec2 size : {glm::ivec2(1024, 1024), {1920, 1080}, {480, 360}, {400, 1200}}) {
         const FlatMesh mesh = legendMesh(fire(), fontFor(size), size);
@@ -122,6 +143,58 @@ TEST(Legend, EndsOfARangeWithoutAnEndSayThatTheyStandForMore) {
             EXPECT_EQ(find(mesh, size, "\u2265 6").has_value(), above);
             EXPECT_TRUE(find(mesh, size, "\u22125") && find(mesh, size, "6"));
         }
+}
+
+// Values lie along all of it evenly, and where a layer shows none, there is none.
+TEST(Legend, ABarHasAGapWhereItsLayerHasOne) {
+    const glm::ivec2 size(1024, 1024);
+    LegendLayer layer{byValue(0, 20), "", ""};
+    layer.shown = {{0, 4}, {12, 20}};
+    const FlatMesh mesh = legendMesh({"", "", {layer}, {}}, fontFor(size), size);
+    const auto colorAt = [&](double value) {
+        return glm::vec3(ColorMap().at(mapPosition({ColorMap(), 0, 20}, value)));
+    };
+    const auto find4 = find(mesh, size, "4"), find12 = find(mesh, size, "12"),
+               lo = find(mesh, size, "0"), hi = find(mesh, size, "20");
+    ASSERT_TRUE(find4 && find12 && lo && hi);
+    const float left = lo->lo.x, width = hi->hi.x - lo->lo.x;
+    std::vector<std::pair<float, glm::vec3>> colors;
+    for (const auto& v : mesh.triangles()) colors.emplace_back(v.at.x, glm::vec3(v.color));
+    for (const double value : {0.0, 4.0, 12.0, 20.0}) {
+        const float at = left + width * static_cast<float>(value / 20);
+        EXPECT_TRUE(std::ranges::any_of(colors, [&](const auto& color) {
+            return std::abs(color.first - at) <= 3 && color.second == colorAt(value);
+        })) << value;
+    }
+    EXPECT_NEAR(0.5f * (find4->lo.x + find4->hi.x), left + 0.2f * width, 3);
+    EXPECT_NEAR(0.5f * (find12->lo.x + find12->hi.x), left + 0.6f * width, 3);
+    EXPECT_FALSE(find(mesh, size, "10")) << "a round value in the gap";
+    for (const auto& [at, color] : colors)
+        EXPECT_FALSE(at > left + 0.25f * width && at < left + 0.5f * width) << at;
+}
+
+TEST(Legend, NumbersOfManyGapsDoNotTouch) {
+    const glm::ivec2 size(900, 700);
+    LegendLayer layer{byValue(0, 100), "", ""};
+    for (int i = 0; i < 30; ++i) layer.shown.emplace_back(3.4 * i, 3.4 * i + (i % 3));
+    const FlatMesh mesh = legendMesh({"", "", {layer}, {}}, fontFor(size), size);
+    // Glyphs of one number follow each other closely; between numbers there is half a line or more.
+    const auto first = find(mesh, size, "0");
+    ASSERT_TRUE(first);
+    const auto line = static_cast<float>(labelStyle(size).linePixels);
+    std::vector<Rect> glyphs;
+    for (const auto& shape : shapes(mesh))
+        if (shape.glyph && shape.covers.lo.y > first->lo.y - 0.2f * line)
+            glyphs.push_back(shape.covers);
+    std::ranges::sort(glyphs, {}, [](const Rect& rect) { return rect.lo.x; });
+    std::size_t numbers = 1;
+    for (std::size_t i = 1; i < glyphs.size(); ++i) {
+        const float apart = glyphs[i].lo.x - glyphs[i - 1].hi.x;
+        EXPECT_GT(apart, -0.1f * line) << i;
+        EXPECT_TRUE(apart < 0.2f * line || apart > 0.5f * line) << i << ": " << apart;
+        numbers += apart > 0.5f * line;
+    }
+    EXPECT_GT(numbers, 4u);
 }
 
 TEST(Legend, ABarOfDenormalNumbersHasThemAtItsEnds) {

@@ -132,6 +132,7 @@ class RandomExplorer {
         if (maybe()) view.distance = 0.01 + 9 * unit();
         if (maybe()) view.target = {2 * unit() - 1, 2e6 * unit() - 1e6, unit()};
         if (maybe()) view.projection = app::Projection::Orthographic;
+        if (maybe()) view.shift = glm::dvec2(2 * unit() - 1, 2 * unit() - 1);
         return view;
     }
     app::PlayChoice play() {

@@ -223,6 +223,28 @@ TEST(PlainHdf5, NumbersThatHaveNamesAreNumbers) {
     expectNumbers<std::int64_t>(H5T_STD_I64BE, true);
 }
 
+// As solvers write velocities: no axis is three points wide for that.
+TEST(PlainHdf5, AVectorOfEachPointIsNoAxis) {
+    const auto path =
+        array<float>(H5T_NATIVE_FLOAT, {3, 4, 5}, std::nullopt, std::vector<float>(60, 1));
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const std::array<hsize_t, 4> size{3, 4, 5, 3};
+    const hid_t space = H5Screate_simple(4, size.data(), nullptr);
+    const hid_t data =
+        H5Dcreate2(file, "U", H5T_NATIVE_FLOAT, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const std::vector<float> values(180, 2);
+    EXPECT_GE(H5Dwrite(data, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+    H5Dclose(data);
+    H5Sclose(space);
+    H5Fclose(file);
+    const auto reader = open(path);
+    ASSERT_EQ(reader->variables().size(), 1u);
+    EXPECT_EQ(reader->variables()[0].name, "v");
+    ASSERT_EQ(reader->damaged().size(), 1u);
+    EXPECT_EQ(reader->damaged()[0].name, "U");
+    EXPECT_THAT(reader->damaged()[0].why, testing::HasSubstr(" of 3 is none of x, y, z and time"));
+}
+
 // Beside other numbers, in a group; and as netCDF has them.
 TEST(PlainHdf5, NumbersThatHaveNamesLieAsOthersDo) {
     const auto path =

@@ -71,8 +71,7 @@ TEST_F(DeskClips, WhatLiesBeyondTheDraggedFaceUntilItIsUndone) {
     // The last points drawn lie on or below the face, and their splats reach less than 1.5 cells
     // beyond them.
     const render::PlacedPoints placed(*grid, after.scale);
-    const render::View eye =
-        app::eyes(after.view, after.stereo, placed.boxHalfEdges(), after.size).front();
+    const render::View eye = app::eyes(after, placed.outline()).front();
     const auto row = [&](double height) {
         const glm::dvec3 world = placed.axesFromGrid({0, 0, height});
         return static_cast<double>(eye.size.y) - render::project(eye, world).window.y;

@@ -24,7 +24,7 @@ struct Foremost {
 // Their splats reach less than 1.5 cells.
 std::vector<Foremost> foremost(const app::Explorer& e, const timeseries::Grid& grid) {
     const render::PlacedPoints placed(grid, e.scale);
-    const render::View eye = app::eyes(e.view, e.stereo, placed.boxHalfEdges(), e.size).front();
+    const render::View eye = app::eyes(e, placed.outline()).front();
     const double cell = placed.cell(0).x * render::pixelRays(eye).focal.x;
     const std::vector<float> values = valuesAt(e.steps->first);
     struct Seen {

@@ -32,6 +32,13 @@ std::vector<ComponentVariable> componentsOf(const std::string& name, ValueType t
     return all;
 }
 
+double lengthOf(double x, double y, double z) {
+    constexpr double kLeast = 1e-290;  // below, squares have lost digits
+    const double squares = x * x + y * y + z * z;
+    const bool isUsual = std::isnan(squares) || (squares >= kLeast && std::isfinite(squares));
+    return isUsual ? std::sqrt(squares) : std::hypot(x, y, z);
+}
+
 Values componentOf(Values rows, const Component& component) {
     const std::uint64_t n = component.of;
     if (n == 1) return rows;
@@ -48,7 +55,7 @@ Values componentOf(Values rows, const Component& component) {
                 const auto at = [&](std::uint64_t c) {
                     return c < n ? static_cast<double>(all[n * i + c]) : 0.0;
                 };
-                values[i] = std::hypot(at(0), at(1), at(2));
+                values[i] = lengthOf(at(0), at(1), at(2));
             }
             return values;
         },

@@ -29,6 +29,10 @@ struct ComponentVariable {
 std::vector<ComponentVariable> componentsOf(const std::string& name, ValueType type,
                                             std::uint64_t count);
 
+// As everybody works it out: to the last bit what the square root of the sum of squares is, where
+// that is neither too large nor too small a number. NaN of one that is.
+double lengthOf(double x, double y, double z);
+
 // Of each row, one behind the other.
 Values componentOf(Values rows, const Component& component);
 

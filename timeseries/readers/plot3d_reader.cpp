@@ -196,8 +196,8 @@ Field Plot3dReader::read(std::size_t variable, std::size_t) {
         [&]<typename V>(const V& x) {
             const V &y = std::get<V>(parts[1]), &z = std::get<V>(parts[2]);
             for (std::uint64_t i = 0; i < points; ++i)
-                lengths[i] = std::hypot(static_cast<double>(x[i]), static_cast<double>(y[i]),
-                                        static_cast<double>(z[i]));
+                lengths[i] = lengthOf(static_cast<double>(x[i]), static_cast<double>(y[i]),
+                                      static_cast<double>(z[i]));
         },
         parts[0]);
     return field;

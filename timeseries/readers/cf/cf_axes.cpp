@@ -98,6 +98,8 @@ constexpr std::array kNames{
     NameRule{"corner", Other, true},
     NameRule{"nvert", Other, true},
     NameRule{"vertices", Other, false},
+    NameRule{"comp", Other, true},
+    NameRule{"vector", Other, true},
     NameRule{"member", Other, true},
     NameRule{"ens", Other, true},
     NameRule{"realization", Other, false},
@@ -315,6 +317,10 @@ bool FileAxes::isTimeElsewhere(const NcVariable& variable, std::size_t position)
     return position == 0 && dimensions_[variable.dimensions[position]].time;
 }
 
+bool FileAxes::isToldAsTime(const NcVariable& variable, std::size_t position) const {
+    return claimOf(variable, position).kind == T || isRecord(header_.dimension(variable, position));
+}
+
 Roles FileAxes::rolesOf(const NcVariable& variable) const {
     const std::size_t rank = variable.dimensions.size();
     std::vector<Claim> claims;
@@ -349,8 +355,12 @@ Roles FileAxes::rolesOf(const NcVariable& variable) const {
     for (std::size_t i = rank; i-- > 0;) {
         if (claims[i].kind == List) roles.list = i;
         if (taken(i) || header_.dimension(variable, i).length == 1) continue;
+        // Two or three numbers a point, where nothing has a name.
+        const bool isVector = rank > 3 && i + 1 == rank &&
+                              !header_.dimension(variable, i).isNamed() &&
+                              header_.dimension(variable, i).length <= 3;
         // A second time is no height.
-        if (claims[i].kind == Other || claims[i].kind == List || claims[i].kind == T)
+        if (isVector || claims[i].kind == Other || claims[i].kind == List || claims[i].kind == T)
             roles.extra.push_back(i);
         else if (!roles.x)
             roles.x = i;

@@ -48,6 +48,8 @@ class FileAxes {
     // them. Null if none.
     const NcVariable* textsAlong(const NcVariable& variable, std::size_t position) const;
     Roles rolesOf(const NcVariable& variable) const;
+    // Whether anything but where it stands among its dimensions says so.
+    bool isToldAsTime(const NcVariable& variable, std::size_t position) const;
 
  private:
     struct Dimension {

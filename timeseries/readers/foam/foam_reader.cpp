@@ -32,6 +32,7 @@ class FoamReader final : public Reader {
                             "regions, found none",
                             path.string()));
         for (const auto& [field, times] : case_.fields) addField(field, times);
+        tellApart(variables_);
         if (variables_.empty())
             throw FileError(damaged_.empty()
                                 ? fmt::format("{}: expected a field of cells or points, found none",

@@ -128,6 +128,11 @@ FileVariable describe(const CfFile& file, const FileAxes& fileAxes, const NcVari
         packingOf(variable, [&](const std::string& what) { file.failAttribute(variable, what); });
     result.classes = classesOf(variable, result.packing);
     result.times = timesOf(file, fileAxes, variable, roles);
+    if (roles.t && !fileAxes.isToldAsTime(variable, *roles.t))
+        result.notes.push_back(
+            fmt::format("{} is taken for time: the file does not say what it is, and it comes "
+                        "before the others",
+                        header.dimension(variable, *roles.t).name));
     result.axes = axesOf(file, fileAxes, variable, roles, geographic, list, result.notes);
     return result;
 }
@@ -145,6 +150,7 @@ FileContents contentsOf(const CfFile& file) {
     FileContents contents;
     contents.damaged.assign(file.damaged().begin(), file.damaged().end());
     std::string passedOver;
+    std::vector<DamagedVariable> leftOut;  // told where others are there
     for (const NcVariable* field : fields) {
         const NcVariable& variable = *field;
         Roles roles = fileAxes.rolesOf(variable);
@@ -164,8 +170,10 @@ FileContents contentsOf(const CfFile& file) {
         const std::string why = obstacle(file, variable, roles);
         if (!why.empty()) {
             // Plain HDF5 has tables and lists beside fields.
-            if (header.format != kPlainHdf5 || variable.dimensions.size() > 2)
-                passedOver += fmt::format("; {}: {}", header.declaration(variable), why);
+            if (header.format == kPlainHdf5 && variable.dimensions.size() <= 2) continue;
+            passedOver += fmt::format("; {}: {}", header.declaration(variable), why);
+            leftOut.push_back(
+                {variable.name, file.sentence("variable '" + variable.name + "'", why)});
             continue;
         }
         try {
@@ -175,7 +183,10 @@ FileContents contentsOf(const CfFile& file) {
             contents.damaged.push_back({variable.name, error.what()});
         }
     }
-    if (!contents.variables.empty()) return contents;
+    if (!contents.variables.empty()) {
+        contents.damaged.insert(contents.damaged.end(), leftOut.begin(), leftOut.end());
+        return contents;
+    }
     if (!contents.damaged.empty()) throw FileError(contents.damaged.front().why);
     if (header.format == kPlainHdf5)
         throw FileError(notReadSentence(

@@ -33,6 +33,7 @@ class VtkHdfImageReader final : public Reader {
         for (const bool atPoints : {false, true})
             placed_[atPoints] = placedImage(image_, !atPoints);
         for (const bool atPoints : {true, false}) addArrays(atPoints);
+        tellApart(variables_);
         if (variables_.empty() && !damaged_.empty()) throw FileError(damaged_.front().why);
         if (variables_.empty())
             file_.fail("VTKHDF", "expected an array of numbers at points or cells, found none");

@@ -31,6 +31,7 @@ class VtkHdfReader final : public Reader {
         : paths_{opened->path()}, opened_(std::move(opened)), layout_(file_) {
         addTime();
         for (const bool atPoints : {true, false}) addArrays(atPoints);
+        tellApart(variables_);
         if (variables_.empty())
             file_.fail("VTKHDF", "expected an array of numbers at points or cells, found none");
     }

@@ -1,4 +1,5 @@
 #include "timeseries/readers/vtk/vtk_reader.h"
+#include "timeseries/readers/components.h"
 
 #include <fmt/format.h>
 
@@ -63,6 +64,7 @@ class VtkReader final : public Reader {
         if (collection) format_ = "VTK collection of " + format_.substr(4);
         addTime();
         for (VtkVariable& each : vtkVariablesOf(header.path, header.arrays)) add(std::move(each));
+        tellApart(variables_);
     }
 
     std::string format() const override { return format_; }

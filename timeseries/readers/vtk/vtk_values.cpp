@@ -4,11 +4,11 @@
 #include <vtkDataSetAttributes.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <type_traits>
 
 #include "timeseries/grid/with_type.h"
+#include "timeseries/readers/components.h"
 
 namespace timeseries {
 namespace {
@@ -29,29 +29,17 @@ void copyComponent(const T* from, std::size_t components, std::size_t component,
                  [&](std::size_t tuple) { *next++ = from[tuple * components + component]; });
 }
 
+// REQUIRES: three components or fewer.
 template <typename T, typename Result>
 void magnitudes(const T* from, std::size_t components, const StridedLayout& layout,
                 std::vector<Result>& to) {
     to.resize(layout.size[0] * layout.size[1] * layout.size[2]);
     auto next = to.begin();
     forEachPlace(layout, [&](std::size_t tuple) {
-        double largest = 0, sum = 0;
-        const T* vector = from + tuple * components;
-        bool nan = false;
-        for (std::size_t i = 0; i < components; ++i) {
-            const double size = std::abs(static_cast<double>(vector[i]));
-            largest = std::max(largest, size);
-            nan |= size != size;
-        }
-        // Scaled, so that no square overflows or vanishes.
-        if (largest > 0 && std::isfinite(largest))
-            for (std::size_t i = 0; i < components; ++i) {
-                const double part = static_cast<double>(vector[i]) / largest;
-                sum += part * part;
-            }
-        else
-            sum = 1;
-        *next++ = static_cast<Result>(nan ? std::nan("") : largest * std::sqrt(sum));
+        const auto at = [&](std::size_t i) {
+            return i < components ? static_cast<double>(from[tuple * components + i]) : 0.0;
+        };
+        *next++ = static_cast<Result>(lengthOf(at(0), at(1), at(2)));
     });
 }
 
