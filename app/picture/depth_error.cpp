@@ -148,20 +148,17 @@ class OrderOf {
     render::OrderError error_;
 };
 
-using EachPicture = std::vector<std::vector<double>>;  // of the truth's pixels
+using Rays = render::SampledTruth::Rays;
 
-// Adds all slabs to the truth, of as many rays as the least error of these pictures takes, or of
-// all, which its parts take, and to what tells of order.
-void look(const Ways& ways, const EachPicture& drawn, Parts parts, render::SampledTruth& truth,
+// Adds all slabs to the truth, of as many rays as the error of the picture that chose its pixels
+// takes, and to what tells of order.
+void look(const Ways& ways, std::span<const double> first, render::SampledTruth& truth,
           std::map<Model, OrderOf>& orders) {
-    using Rays = render::SampledTruth::Rays;
     ways.forEachSlab([&](const timeseries::FieldSlab& slab) {
         truth.add(slab, Rays::Quarter);
         for (auto& [model, order] : orders) order.add(slab);
     });
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& depth : drawn) least = std::min(least, truth.apart(depth, truth.depth()));
-    if (parts == Parts::All || truth.wantsRest(least))
+    if (truth.wantsRest(truth.apart(first, truth.depth())))
         ways.forEachSlab([&](const timeseries::FieldSlab& slab) { truth.add(slab, Rays::Rest); });
 }
 
@@ -176,6 +173,23 @@ struct SeenWhole {
         finely = ways.finelyDrawn(rung.model, truth.pixels());
     }
 };
+
+// Of the rungs in their order, against the truth of all rays.
+void tellParts(const Ways& ways, std::span<const std::vector<double>> drawn,
+               render::SampledTruth& truth, std::span<RungError> rungs) {
+    if (!truth.hasRest())
+        ways.forEachSlab([&](const timeseries::FieldSlab& slab) { truth.add(slab, Rays::Rest); });
+    std::map<std::pair<Model, int>, SeenWhole> whole;
+    for (std::size_t i = 0; i < rungs.size(); ++i) {
+        const Rung& rung = rungs[i].rung;
+        const std::pair alike(rung.model, rung.across);
+        const SeenWhole& all = whole.try_emplace(alike, ways, rung, truth).first->second;
+        if (!ways.isWanted()) return;
+        rungs[i].parts = ErrorParts{.model = truth.apart(all.finely, truth.depth()),
+                                    .subset = truth.apart(drawn[i], all.asDrawn),
+                                    .pixels = truth.apart(all.asDrawn, all.finely)};
+    }
+}
 
 }  // namespace
 
@@ -220,32 +234,24 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
     render::Sampling sampling{.threads = question.threads};
     if (ways.isByRays(first)) sampling.asked = kPixelsAsked;
     render::SampledTruth truth(first, view, ways.whereIn(first, pictures[0]), sampling);
-    EachPicture drawn;
+    std::vector<std::vector<double>> drawn;
     for (const render::DepthAt& picture : pictures) drawn.push_back(picture(truth.pixels()));
     std::map<Model, OrderOf> orders;
     for (const Rung& rung : rungs)
         orders.try_emplace(rung.model, ways, rung.model, truth, question.threads);
-    look(ways, drawn, question.parts, truth, orders);
+    look(ways, drawn.front(), truth, orders);
     std::map<Model, double> order;
     for (const auto& [model, of] : orders) order[model] = wanted ? of.error() : 0;
     DepthErrors told{.rungs = {}, .ordering = orderingOf(ways, rungs.front().model)};
-    std::map<std::pair<Model, int>, SeenWhole> whole;
     for (std::size_t i = 0; i < rungs.size(); ++i) {
-        if (!wanted) return {};
         const double depth = truth.apart(drawn[i], truth.depth());
         const bool isNothing = depth == 0 && std::ranges::all_of(truth.depth(), isZero);
-        RungError& error = told.rungs.emplace_back(
-            RungError{rungs[i], isNothing ? std::numeric_limits<double>::quiet_NaN() : depth,
-                      order.at(rungs[i].model)});
-        if (question.parts == Parts::None) continue;
-        const std::pair alike(rungs[i].model, rungs[i].across);
-        const SeenWhole& all = whole.try_emplace(alike, ways, rungs[i], truth).first->second;
-        if (!wanted) return {};
-        error.parts = ErrorParts{.model = truth.apart(all.finely, truth.depth()),
-                                 .subset = truth.apart(drawn[i], all.asDrawn),
-                                 .pixels = truth.apart(all.asDrawn, all.finely)};
+        told.rungs.push_back({rungs[i],
+                              isNothing ? std::numeric_limits<double>::quiet_NaN() : depth,
+                              order.at(rungs[i].model)});
     }
-    return told;
+    if (question.parts == Parts::All) tellParts(ways, drawn, truth, told.rungs);
+    return wanted ? told : DepthErrors();
 }
 
 std::vector<Rung> rungsOf(const Explorer& explorer, const timeseries::SortedStep& step) {

@@ -5,7 +5,7 @@
 // whole with as many rays in a pixel, P the same with the rays that are drawn, one or a few, and D
 // what is drawn, all of optical depth, of lengths in the ranges or of crossings, as opacity is
 // (render::OpacityPer); of points, which have lengths alone, where they were chosen:
-//   whole  |D - T| / |T|   where it alone is asked for, T of fewer rays if these tell it as well
+//   whole  |D - T| / |T|   T of fewer rays if these tell it as well
 //   model  |M - T| / |T|   cells or points instead of the interval volume
 //   pixels |P - M| / |T|   few rays a pixel, or one for several pixels, instead of its mean
 //   subset |D - P| / |T|   what is left out while a picture moves

@@ -163,7 +163,7 @@ void SampledTruth::average() {
 }
 
 bool SampledTruth::wantsRest(double error) const {
-    if (rest_.places.empty() || hasRest_) return false;
+    if (hasRest()) return false;
     // Of the mean of both, by chance alone: to be added to the error in squares.
     const double noise = 0.5 * apart(quarter_[0].depth, quarter_[1].depth);
     const bool seesNothing = std::ranges::none_of(depth_, [](double depth) { return depth > 0; });

@@ -63,6 +63,8 @@ class SampledTruth {
     // quarter has been added, of all slabs.
     bool wantsRest(double error) const;
 
+    bool hasRest() const { return hasRest_ || rest_.places.empty(); }
+
     // Of what was added.
     std::span<const double> depth() const { return depth_; }
     // sqrt( sum w (a - b)^2 / sum w truth^2 ) of optical depths at these pixels, which are there in

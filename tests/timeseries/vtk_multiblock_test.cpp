@@ -191,12 +191,26 @@ TEST(VtkMultiBlock, WhatIsWrongIsNamed) {
                 HasSubstr("Block level: expected a count, found \"low\""));
     EXPECT_THAT(told(set("image.vti") + set("bent.vts"), "vtkOverlappingAMR"),
                 HasSubstr("bent.vts: VTKFile: expected image data along the axes of space"));
+}
+
+// The others are read: in ParaView, too, a block may have another p than its neighbours.
+TEST(VtkMultiBlock, AnArrayThatIsAnotherKindInSomeBlockIsLeftOutAndTold) {
+    const auto folder = freshFolder();
     std::string other = cubes(2, 3, "");
     for (std::size_t at; (at = other.find("Float64\" Name=\"p\"")) != other.npos;)
         other.replace(at, 7, "Float32");
-    writeBytes(folder / "other.vtu", other);
-    EXPECT_THAT(told(set("a.vtu") + set("other.vtu")),
-                HasSubstr("other.vtu: 'p': expected float64 of 1 components, as in another block"));
+    writeBytes(folder / "a.vtu", cubes(0, 2, ""));
+    writeBytes(folder / "b.vtu", other);
+    writeBytes(folder / "c.vtu", other);
+    writeList(folder / "all.vtm", "vtkMultiBlockDataSet",
+              set("a.vtu") + set("b.vtu") + set("c.vtu"));
+    const auto reader = open(folder / "all.vtm");
+    EXPECT_THAT(tests::namesOf(*reader), testing::Not(testing::Contains("p")));
+    EXPECT_EQ(reader->variables()[indexOf(*reader, "c")].missing, "");
+    ASSERT_EQ(reader->damaged().size(), 1u);
+    EXPECT_EQ(reader->damaged()[0].name, "p");
+    EXPECT_THAT(reader->damaged()[0].why,
+                HasSubstr("b.vtu: 'p': expected float64 of 1 components, as in another block"));
 }
 
 // Leaves by brute force of the blocks' own files.

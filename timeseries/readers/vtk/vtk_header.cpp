@@ -35,12 +35,17 @@ static_assert(static_cast<char>(-1) < 0 && sizeof(long) == 8);
 
 }  // namespace
 
-void failVtk(const std::filesystem::path& path, std::string_view place, std::string_view what) {
+std::string vtkSentence(const std::filesystem::path& path, std::string_view place,
+                        std::string_view what) {
     std::string sentence =
         fmt::format("{}: {}{}{}", path.string(), place, place.empty() ? "" : ": ", what);
     for (char& c : sentence)
         if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
-    throw FileError(sentence);
+    return sentence;
+}
+
+void failVtk(const std::filesystem::path& path, std::string_view place, std::string_view what) {
+    throw FileError(vtkSentence(path, place, what));
 }
 
 const VtkType* vtkXmlType(std::string_view name) {

@@ -103,6 +103,7 @@ struct VtkHeader {
     std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row
     std::vector<VtkArray> arrays;                                // those that can be drawn
     std::vector<std::string> passedOver;                         // the others, each with the reason
+    std::vector<DamagedVariable> differing;                      // of blocks: of another kind each
     std::array<bool, 2> ghosts{};                                // by VtkPlace: has vtkGhostType
     bool fieldOutside = false;  // a legacy file's FIELD that is neither of points nor of cells
     // Of rectilinear grids; of an XML file VTK reads them later.
@@ -127,6 +128,8 @@ struct VtkMember {
 };
 
 // The sentence "path: place: what".
+std::string vtkSentence(const std::filesystem::path& path, std::string_view place,
+                        std::string_view what);
 [[noreturn]] void failVtk(const std::filesystem::path& path, std::string_view place,
                           std::string_view what);
 

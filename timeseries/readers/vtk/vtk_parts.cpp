@@ -184,8 +184,11 @@ VtkContents joined(const XmlFile& file) {
     return joined(std::move(whole), std::move(parts), &file);
 }
 
-// All arrays that some block has; where others have one of that name that is different, none.
+// All arrays that some block has, but those that others have of another kind.
 void gatherArrays(VtkHeader& whole, std::span<const VtkHeader> blocks) {
+    const auto differs = [&](const VtkArray& array) {
+        return std::ranges::count(whole.differing, array.name, &DamagedVariable::name) > 0;
+    };
     for (const VtkHeader& block : blocks) {
         for (const VtkArray& array : block.arrays) {
             const auto same = std::ranges::find_if(whole.arrays, [&](const VtkArray& other) {
@@ -193,10 +196,14 @@ void gatherArrays(VtkHeader& whole, std::span<const VtkHeader> blocks) {
             });
             if (same == whole.arrays.end())
                 whole.arrays.push_back(array);
+            else if (differs(array))
+                continue;
             else if (same->type != array.type || same->components != array.components)
-                failVtk(block.path, fmt::format("'{}'", array.name),
-                        fmt::format("expected {} of {} components, as in another block",
-                                    typeName(same->type), same->components));
+                whole.differing.push_back(
+                    {array.name,
+                     vtkSentence(block.path, fmt::format("'{}'", array.name),
+                                 fmt::format("expected {} of {} components, as in another block",
+                                             typeName(same->type), same->components))});
             else if (same->notNumber.empty())
                 same->notNumber = array.notNumber;
         }
@@ -205,6 +212,7 @@ void gatherArrays(VtkHeader& whole, std::span<const VtkHeader> blocks) {
             whole.ghosts[place] = whole.ghosts[place] || block.ghosts[place];
         if (!whole.time) whole.time = block.time;
     }
+    std::erase_if(whole.arrays, differs);
     for (VtkArray& array : whole.arrays)
         array.isEverywhere = std::ranges::all_of(
             blocks, [&](const VtkHeader& block) { return arrayIn(block, array) != nullptr; });

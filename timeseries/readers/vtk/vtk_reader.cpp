@@ -55,11 +55,14 @@ class VtkReader final : public Reader {
     VtkReader(const Path& path, std::vector<VtkMember> members, OpenedStep first, bool collection)
         : files_{path}, members_(std::move(members)), frame_(std::move(first)) {
         const VtkHeader& header = frame_.header();
+        if (header.arrays.empty() && !header.differing.empty())
+            throw FileError(header.differing.front().why);
         if (header.arrays.empty()) {
             std::string why;
             for (const std::string& each : header.passedOver) why += "; " + each;
             failVtk(header.path, "", "expected an array of numbers, found none" + why);
         }
+        damaged_ = header.differing;
         format_ = header.format;
         if (collection) format_ = "VTK collection of " + format_.substr(4);
         addTime();
@@ -70,6 +73,7 @@ class VtkReader final : public Reader {
     std::string format() const override { return format_; }
     std::span<const Path> files() const override { return files_; }
     std::span<const Variable> variables() const override { return variables_; }
+    std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
     StepSources sources(std::size_t variable, std::size_t step) override;
 
@@ -86,6 +90,7 @@ class VtkReader final : public Reader {
     std::shared_ptr<const TimeAxis> time_;
     std::vector<std::string> notes_;  // of all variables
     std::vector<Variable> variables_;
+    std::vector<DamagedVariable> damaged_;
     std::vector<VtkVariable> sources_;  // [variable]
 };
 
