@@ -56,8 +56,7 @@ std::vector<double> valuesBetween(const ColorBar& bar) {
         values.push_back(bar.parts[i].first);
     }
     // A part of one value has one number, which the bar's end may have already.
-    const auto repeated = std::ranges::unique(values);
-    values.erase(repeated.begin(), repeated.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
     std::erase_if(values, [&](double value) { return value == bar.lo() || value == bar.hi(); });
     return values;
 }

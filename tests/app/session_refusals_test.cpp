@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "app/choices/choice_text.h"
 #include "app/choices/session.h"
 #include "render/image/exr.h"
 #include "render/image/png.h"
