@@ -150,15 +150,17 @@ class OrderOf {
 
 using Rays = render::SampledTruth::Rays;
 
-// Adds all slabs to the truth, of as many rays as the error of the picture that chose its pixels
-// takes, and to what tells of order.
-void look(const Ways& ways, std::span<const double> first, render::SampledTruth& truth,
+// Adds all slabs to the truth, of as many rays as the least error of these pictures takes, and to
+// what tells of order.
+void look(const Ways& ways, std::span<const std::vector<double>> drawn, render::SampledTruth& truth,
           std::map<Model, OrderOf>& orders) {
     ways.forEachSlab([&](const timeseries::FieldSlab& slab) {
         truth.add(slab, Rays::Quarter);
         for (auto& [model, order] : orders) order.add(slab);
     });
-    if (truth.wantsRest(truth.apart(first, truth.depth())))
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& depth : drawn) least = std::min(least, truth.apart(depth, truth.depth()));
+    if (truth.wantsRest(least))
         ways.forEachSlab([&](const timeseries::FieldSlab& slab) { truth.add(slab, Rays::Rest); });
 }
 
@@ -239,7 +241,7 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
     std::map<Model, OrderOf> orders;
     for (const Rung& rung : rungs)
         orders.try_emplace(rung.model, ways, rung.model, truth, question.threads);
-    look(ways, drawn.front(), truth, orders);
+    look(ways, drawn, truth, orders);
     std::map<Model, double> order;
     for (const auto& [model, of] : orders) order[model] = wanted ? of.error() : 0;
     DepthErrors told{.rungs = {}, .ordering = orderingOf(ways, rungs.front().model)};

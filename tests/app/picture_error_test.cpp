@@ -172,6 +172,18 @@ TEST(PictureError, PartsAddUpAsDifferencesDo) {
     }
 }
 
+// Few rays are enough for the first of these, but not for the second, which is far truer.
+TEST(PictureError, OfATruePictureIsNotToldByTheRaysOfAPoorOneBeforeIt) {
+    const PictureError::Picture picture = waves(Model::Points, "0.2:0.203");
+    picture.sorted->cells();
+    const DepthErrors told = partsOf(picture, {{Model::Points}, {Model::Cells}});
+    ASSERT_EQ(told.rungs.size(), 2u);
+    const RungError& cells = told.rungs[1];
+    ASSERT_LT(10 * cells.depth, told.rungs[0].depth);
+    EXPECT_LE(cells.depth, cells.parts->model + cells.parts->pixels + 1e-12);
+    EXPECT_LE(cells.parts->pixels, cells.parts->model + cells.depth + 1e-12);
+}
+
 TEST(PictureError, APartComesFromWhatMakesIt) {
     PictureError::Picture picture = waves(Model::Cells, "0.2:0.23");
     const Rung cells{Model::Cells}, points{Model::Points};

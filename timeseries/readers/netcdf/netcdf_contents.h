@@ -27,8 +27,9 @@ struct FileVariable {
 };
 
 struct FileContents {
-    std::vector<FileVariable> variables;   // in the file's order; not empty
-    std::vector<DamagedVariable> damaged;  // for malformed attributes, of coordinates too
+    std::vector<FileVariable> variables;  // in the file's order; not empty
+    // For malformed attributes, of coordinates too, or for dimensions that are no axes.
+    std::vector<DamagedVariable> damaged;
 };
 
 // Throws FileError when no variable is left: of one that is damaged, else with those that were
