@@ -77,19 +77,25 @@ Distances::Distances(const Scene& scene, const glm::dvec3& from)
     }
 }
 
-void Distances::findInMesh(std::span<const std::uint32_t> index, std::span<double> away) const {
+void Distances::findInMesh(std::span<const std::uint32_t> index,
+                           std::span<const timeseries::Mesh::Point> points,
+                           std::span<double> away) const {
     constexpr std::size_t kAhead = 16;
+    const bool holdsAll = clip_.holdsAll();
     for (std::size_t i = 0; i < index.size(); ++i) {
-        if (i + kAhead < index.size()) placed_.prefetch(index[i + kAhead]);
+        if (points.empty() && i + kAhead < index.size()) placed_.prefetch(index[i + kAhead]);
         away[i] = -1;
-        if (!placed_.inside(index[i], clip_)) continue;
-        const double distance = glm::distance(placed_.position(index[i]), from_);
+        if (!holdsAll && !placed_.inside(index[i], clip_)) continue;
+        const glm::dvec3 at =
+            points.empty() ? placed_.position(index[i]) : placed_.position(points[i], index[i]);
+        const double distance = glm::distance(at, from_);
         if (std::isfinite(distance)) away[i] = distance;
     }
 }
 
-void Distances::find(std::span<const std::uint32_t> index, std::span<double> away) const {
-    if (placed_.isMesh()) return findInMesh(index, away);
+void Distances::find(std::span<const std::uint32_t> index, std::span<double> away,
+                     std::span<const timeseries::Mesh::Point> points) const {
+    if (placed_.isMesh()) return findInMesh(index, points, away);
     HWY_DYNAMIC_DISPATCH(FindDistances)(*this, index, away);
 }
 }  // namespace render

@@ -18,8 +18,9 @@ class Distances {
     Distances(const Scene& scene, const glm::dvec3& from);
 
     // Of the points of these grid indices, each into its place; negative outside of the clip box
-    // and where a point has no place.
-    void find(std::span<const std::uint32_t> index, std::span<double> away) const;
+    // and where a point has no place. `points`: what the mesh keeps of them, where that is at hand.
+    void find(std::span<const std::uint32_t> index, std::span<double> away,
+              std::span<const timeseries::Mesh::Point> points = {}) const;
 
     // What the kernels take: the grid's size, its positions along each axis, what takes them to
     // where `from` is the origin (columns), and the clip box.
@@ -30,7 +31,8 @@ class Distances {
     bool clips = false;  // some may be negative
 
  private:
-    void findInMesh(std::span<const std::uint32_t> index, std::span<double> away) const;
+    void findInMesh(std::span<const std::uint32_t> index,
+                    std::span<const timeseries::Mesh::Point> points, std::span<double> away) const;
 
     const PlacedPoints& placed_;
     IndexBox clip_;

@@ -6,6 +6,7 @@
 
 #include "render/splat/cell_batches.h"
 #include "render/splat/cell_kernels.h"
+#include "render/splat/drawn_points.h"
 #include "render/splat/mixed_list.h"
 #include "render/splat/seen_cells.h"
 #include "render/splat/tet_kernels.h"
@@ -30,14 +31,17 @@ struct Points {
         std::vector<float> tint;
         std::vector<SeenSplat> seen;
     } list;
+    DrawnPoints drawn;  // of a mesh
     std::vector<TileSpan> spans;
     std::vector<std::uint32_t> place;  // in `list`: of a mesh, what its index is then
 
-    void take(std::size_t count, bool isMesh) {
+    void take(std::size_t count, const std::shared_ptr<const timeseries::Mesh>& mesh) {
         list.index.resize(count);
         list.tint.resize(count);
         spans.resize(count);
-        if (isMesh) list.seen.resize(std::max(list.seen.size(), count));
+        if (!mesh) return;
+        list.seen.resize(std::max(list.seen.size(), count));
+        drawn.begin(mesh, count);
     }
 };
 
@@ -114,7 +118,8 @@ void Part::look(const Scene& scene, const CellView& cells, const TileView& splat
     }
     if (scene.placed.isMesh()) {
         const std::size_t count = last - first;
-        seeSplats(scene, splats, std::span(points.list.index).subspan(first, count),
+        const auto index = std::span(points.list.index).subspan(first, count);
+        seeSplats(scene, splats, index, points.drawn.of(first, index),
                   std::span(points.list.seen).subspan(first, count),
                   std::span(points.spans).subspan(first, count));
         std::iota(points.list.index.begin() + std::ptrdiff_t(first),
@@ -234,7 +239,7 @@ void MixedSum::Work::sum(std::span<const CellOrPoint> some, bool lastOfAll) {
                                              [&](const CellOrPoint& of) {
                                                  return scene.layers[of.layer].byPoints;
                                              })));
-    points.take(firsts.back(), scene.placed.isMesh());
+    points.take(firsts.back(), scene.placed.mesh());
     if (scene.placed.isMesh()) splats.meshSplats = points.list.seen;
     together(shared, [&](unsigned k) {
         parts[k].look(scene, cells, splats, columns, batches,

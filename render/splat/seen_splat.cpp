@@ -23,19 +23,16 @@ struct MeshPoints {
     alignas(64) double level[kLanes];
     alignas(64) float height[kLanes];
 
-    void take(const Scene& scene, const timeseries::Mesh::Stored& stored, std::uint32_t gridIndex,
-              std::size_t lane) {
-        const std::size_t count = stored.points.size();
-        const std::size_t k = stored.levels.empty() ? 0 : gridIndex / count;
-        const timeseries::Mesh::Point& point = stored.points[gridIndex - k * count];
-        const bool drawn = stored.sign * static_cast<double>(point.cell.diagonal.x) > 0 &&
-                           scene.placed.inside(gridIndex, scene.clip);
+    void take(const timeseries::Mesh::Stored& stored, const timeseries::Mesh::Point& point,
+              std::uint32_t gridIndex, bool clipped, std::size_t lane) {
+        const bool drawn = stored.sign * static_cast<double>(point.cell.diagonal.x) > 0 && !clipped;
         for (int a = 0; a < 3; ++a) {
             at[a][lane] = point.at[a];
             diagonal[a][lane] = drawn ? point.cell.diagonal[a] : 0;
             below[a][lane] = point.cell.below[a];
         }
         if (stored.levels.empty()) return;
+        const std::size_t k = gridIndex / stored.points.size();
         level[lane] = stored.levels[k].at;
         height[lane] = drawn ? static_cast<float>(stored.levels[k].height) : 0;
     }
@@ -294,16 +291,18 @@ struct SeenLanes {
 };
 
 HWY_ATTR void SeeSplats(const Scene& scene, const TileView& view,
-                        std::span<const std::uint32_t> gridIndex, std::span<SeenSplat> splats,
-                        std::span<TileSpan> spans) {
-    constexpr std::size_t kAhead = 24;
+                        std::span<const std::uint32_t> gridIndex,
+                        std::span<const timeseries::Mesh::Point> points,
+                        std::span<SeenSplat> splats, std::span<TileSpan> spans) {
     const auto stored = scene.placed.mesh()->stored();
+    const bool clips = !scene.clip.holdsAll();
     MeshPoints some;
     for (std::size_t i = 0; i < gridIndex.size(); i += kLanes) {
         const std::size_t count = std::min(kLanes, gridIndex.size() - i);
         for (std::size_t k = 0; k < kLanes; ++k) {
-            if (i + k + kAhead < gridIndex.size()) scene.placed.prefetch(gridIndex[i + k + kAhead]);
-            some.take(scene, stored, gridIndex[i + std::min(k, count - 1)], k);
+            const std::size_t at = i + std::min(k, count - 1);
+            const bool clipped = clips && !scene.placed.inside(gridIndex[at], scene.clip);
+            some.take(stored, points[at], gridIndex[at], clipped, k);
         }
         SeenLanes(view, some).findAll(splats.subspan(i, count), spans.subspan(i, count));
     }
@@ -318,8 +317,9 @@ namespace render {
 HWY_EXPORT(SeeSplats);
 
 void seeSplats(const Scene& scene, const TileView& view, std::span<const std::uint32_t> gridIndex,
-               std::span<SeenSplat> splats, std::span<TileSpan> spans) {
-    HWY_DYNAMIC_DISPATCH(SeeSplats)(scene, view, gridIndex, splats, spans);
+               std::span<const timeseries::Mesh::Point> points, std::span<SeenSplat> splats,
+               std::span<TileSpan> spans) {
+    HWY_DYNAMIC_DISPATCH(SeeSplats)(scene, view, gridIndex, points, splats, spans);
 }
 }  // namespace render
 #endif

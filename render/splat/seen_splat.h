@@ -8,6 +8,7 @@
 #include <span>
 
 #include "render/splat/tile_bins.h"
+#include "timeseries/grid/mesh.h"
 
 namespace render {
 
@@ -41,10 +42,11 @@ inline const float* floatsOf(const SeenSplat& splat) {
 }
 inline float* floatsOf(SeenSplat& splat) { return reinterpret_cast<float*>(&splat); }
 
-// Those of the points of these grid indices, as splatAt() has them, their places in double, several
-// at once; and the tiles that each touches. REQUIRES: a scene of a mesh, whose splats are no
-// points; as many `splats` and `spans` as indices.
+// Those of the points of these grid indices, which the mesh keeps so, as splatAt() has them, their
+// places in double, several at once; and the tiles that each touches. REQUIRES: a scene of a mesh,
+// whose splats are no points; as many of each as indices.
 void seeSplats(const Scene& scene, const TileView& view, std::span<const std::uint32_t> gridIndex,
-               std::span<SeenSplat> splats, std::span<TileSpan> spans);
+               std::span<const timeseries::Mesh::Point> points, std::span<SeenSplat> splats,
+               std::span<TileSpan> spans);
 
 }  // namespace render

@@ -11,6 +11,7 @@
 
 #include "render/splat/depth_order.h"
 #include "render/splat/distances.h"
+#include "render/splat/drawn_points.h"
 #include "render/splat/splat_source.h"
 #include "render/splat/tile_chains.h"
 #include "render/splat/tile_kernels.h"
@@ -77,6 +78,7 @@ struct TileMemory::Kept {
     PlanePixels plane;
     SplatPoints points;
     timeseries::LargeVector<SeenSplat> seen;  // of a mesh, of these points
+    DrawnPoints drawn;
     // One a thread.
     std::vector<TileChains> chains;
     std::vector<InTile> inTile;
@@ -154,15 +156,17 @@ void TileSum::Work::look(std::size_t first, std::size_t count, Batch& batch) {
             columns.values);
     const auto index = std::span(batch.index).first(count);
     const auto spans = std::span(batch.spans).first(count);
+    std::span<const timeseries::Mesh::Point> drawn;
+    if (scene.placed.isMesh()) drawn = kept.drawn.of(first, index);
     if (entry == Entry::Keyed) {
         std::array<double, Batch::kMost> away;
-        distances->find(index, std::span(away).first(count));
+        distances->find(index, std::span(away).first(count), drawn);
         for (std::size_t i = 0; i < count; ++i) batch.key[i] = keys.of(std::max(away[i], 0.0));
     }
     if (!scene.placed.isMesh()) {
         findTiles(view, index, spans);
     } else {
-        seeSplats(scene, view, index, std::span(kept.seen).subspan(first, count), spans);
+        seeSplats(scene, view, index, drawn, std::span(kept.seen).subspan(first, count), spans);
         std::iota(index.begin(), index.end(), static_cast<std::uint32_t>(first));
     }
 }
@@ -247,6 +251,7 @@ void TileSum::Work::sum() {
     if (scene.placed.isMesh()) {
         kept.seen.resize(std::max(kept.seen.size(), count));
         view.meshSplats = kept.seen;
+        kept.drawn.begin(scene.placed.mesh(), count);
     }
     for (std::size_t first = 0;;) {
         first = binAll(first, shared);

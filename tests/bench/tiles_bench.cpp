@@ -7,6 +7,7 @@
 #include "render/splat/depth_order.h"
 #include "render/splat/gl_list.h"
 #include "render/splat/gl_targets.h"
+#include "render/splat/processor_splatter.h"
 #include "render/splat/row_splatter.h"
 #include "render/splat/tile_splatter.h"
 #include "tests/bench/alternate.h"
@@ -20,12 +21,12 @@ using namespace bench::what;
 
 // A picture, and an eye of a headset.
 constexpr std::array<glm::ivec2, 2> kSizes{bench::ScatteredSplats::kSize, {1440, 1600}};
-// A frame by tiles, whose order is made anew for the eye.
+// A frame by tiles, whose order is made anew for the eye, as the program has it made.
 struct ByTiles {
-    DepthOrder inDepth;
+    ProcessorSplatter splatter;
     TileMemory memory;
     void operator()(const bench::ScatteredSplats& world, std::span<const float> opaqueDepth) {
-        const DrawList list = inDepth(world.scene, pixelRays(world.view).eye);
+        const DrawList list = splatter.order(world.scene, pixelRays(world.view).eye);
         TileSum sum(world.scene, list, world.view, channelsFor(world.scene)[0], 0, opaqueDepth,
                     sharingThreads(), std::move(memory));
         sum.add(std::numeric_limits<std::uint64_t>::max());

@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "render/splat/drawn_points.h"
 #include "render/splat/tile_splatter.h"
 #include "render/splat/tile_view.h"
 #include "tests/support/meshes.h"
@@ -91,7 +92,9 @@ Looked look(const World& world, const View& from, double error) {
     std::iota(index.begin(), index.end(), 0u);
     std::vector<SeenSplat> seen(index.size());
     std::vector<TileSpan> spans(index.size());
-    seeSplats(world.scene, view, index, seen, spans);
+    DrawnPoints drawn;
+    drawn.begin(world.placed.mesh(), index.size());
+    seeSplats(world.scene, view, index, drawn.of(0, index), seen, spans);
     Looked looked;
     for (const std::uint32_t i : index) {
         SCOPED_TRACE(i);

@@ -258,9 +258,7 @@ void Mesh::takeSums(const Sums& sums) {
 }
 
 glm::dvec3 Mesh::position(std::uint64_t index) const {
-    if (levels_.empty()) return origin_ + unit_ * glm::dvec3(points_.data()[index].at);
-    const glm::vec3& column = points_.data()[index % stored_].at;
-    return origin_ + unit_ * glm::dvec3(column) + glm::dvec3(0, 0, levels_[index / stored_].at);
+    return position(points_.data()[levels_.empty() ? index : index % stored_], index);
 }
 
 LowerTriangle<double> Mesh::cell(std::uint64_t index) const {

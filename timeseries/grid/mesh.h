@@ -79,6 +79,9 @@ class Mesh {
     std::uint64_t count() const;
     // In the file's space: to a 2^24th of the mesh's extent. Not finite where the point has none.
     glm::dvec3 position(std::uint64_t index) const;
+    struct Point;
+    // The same of what is kept of it.
+    glm::dvec3 position(const Point& point, std::uint64_t index) const;
     // The shape of the cell that the point stands for, `spread` times as wide. Zero where nothing
     // is drawn: no place, no volume, or folded, turned inside out beside most of the others.
     LowerTriangle<double> cell(std::uint64_t index) const;
@@ -172,6 +175,11 @@ class Mesh {
     double sign_ = 1;  // of the determinants of most cells
     std::uint64_t folded_ = 0, flat_ = 0, absent_ = 0;
 };
+
+inline glm::dvec3 Mesh::position(const Point& point, std::uint64_t index) const {
+    const glm::dvec3 at = origin_ + unit_ * glm::dvec3(point.at);
+    return levels_.empty() ? at : at + glm::dvec3(0, 0, levels_[index / stored_].at);
+}
 
 // What of a mesh is not drawn as it is, a sentence each.
 std::vector<std::string> notesOf(const Mesh& mesh);
