@@ -8,7 +8,10 @@
 // and b the places of a piece's ends on such a ramp, clamp(x, 0, 1), its mean along the piece is
 //   (Q(b) - Q(a)) / (b - a),  Q(x) = 0, x^2 / 2, x - 1/2 below 0, between, and above 1,
 // and of a range the difference of the means of two ramps. An end that the cell does not cross is
-// left out, or a plateau at the end's value would count half.
+// left out, or a plateau at the end's value would count half. What a ramp has beyond the values of
+// the cell is in others, of which those that the range does not reach are not drawn: where cells
+// are flat, so that a pixel's width of the field holds more than a cell, a ramp is no wider than
+// keeps it within them (widestRamp).
 //
 // A colour by value is the mean of the map over the values that a pixel sees of a cell, or where it
 // hides what is behind, over those of its front (shareFromFront): the colour of their mean would be
@@ -53,6 +56,10 @@ inline constexpr double kLeastChange = 1e-5;
 inline constexpr double kLeastDifference = 1e-4;
 // Of half the cell's own change: what is crossed is no thinner, or rounding would show.
 inline constexpr double kThinnest = 1e-2;
+// Of what f is in a cell, [-1, 1], how wide a ramp may always be, for a smooth edge.
+inline constexpr double kNarrowRamp = 0.125;
+// And about an end that two cells share: what a third of a cell changes, if that is along one axis.
+inline constexpr double kSharedRamp = 2.0 / 3;
 // Of a ray along an axis, so that one along a face divides by something.
 inline constexpr double kLeastStep = 1e-12;
 
@@ -181,6 +188,20 @@ bool seeField(CellSplat<Real>& s, const ValuedCell& cell, double unitLength) {
     return seeRange(s, cell, *lo, *hi, 2 * glm::length(unitLength / (cell.to - cell.from)));
 }
 
+// How wide a ramp about each end of the range may be. An end at the cell's least or greatest value
+// is its neighbour's as well, which takes the ramp's other half.
+template <typename Real, typename Splat>
+Real widestRamp(const Splat& s, bool crossesLeast, bool crossesMost) {
+    Real widest = std::numeric_limits<Real>::max();
+    const auto limit = [&](Real end) {
+        const Real beside = std::abs(1 - std::abs(end));
+        widest = std::min(widest, beside > Real(kThinnest) ? 2 * beside : Real(kSharedRamp));
+    };
+    if (crossesLeast) limit(s.least);
+    if (crossesMost) limit(s.most);
+    return std::max(widest, Real(kNarrowRamp));
+}
+
 // Of a linear piece that is worth so much W, from value to value, over a pixel in which the field
 // changes by `width`: what lies in the range, which has the mean of its ends there.
 template <typename Real, template <typename> typename Splat>
@@ -290,7 +311,8 @@ CellFragment<Real> fragmentOn(const PointsView& view, const CellSplat<Real>& s,
         values[k] = value + way * (first + way * (second + way * third));
     }
     const Vec2 across = (s.base + depth) * Vec2(glm::dot(gradient, x), glm::dot(gradient, y));
-    const Real width = std::max(glm::length(across), Real(2 * kLeastChange));
+    const Real width = std::clamp(glm::length(across), Real(2 * kLeastChange),
+                                  cell::widestRamp<Real>(s, s.crossesLeast, s.crossesMost));
     Real weight = 0, sum = 0;
     for (std::size_t k = 0; k < kPieces; ++k) {
         const Real begin = values[k], end = values[k + 1];

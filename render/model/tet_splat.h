@@ -194,8 +194,9 @@ CellFragment<Real> fragmentOn(const PointsView& view, const TetSplat<Real>& s,
     const Real value = s.f + s.base * shift, change = s.fRay + shift;
     const Real begin = value + from * change, end = value + to * change;
     if (!s.crossesLeast && !s.crossesMost) return {whole, (begin + end) / 2};
-    const Real width = std::max((s.base + (from + to) / 2) * glm::length(Vec2(s.fX, s.fY)),
-                                Real(2 * kLeastChange));
+    const Real width = std::clamp((s.base + (from + to) / 2) * glm::length(Vec2(s.fX, s.fY)),
+                                  Real(2 * kLeastChange),
+                                  cell::widestRamp<Real>(s, s.crossesLeast, s.crossesMost));
     const CellFragment<Real> part = cell::withinRange(
         s, begin, end, width, std::max(whole, std::abs(end - begin) * s.perRange));
     return part.weight > 0 ? part : CellFragment<Real>{};

@@ -57,7 +57,7 @@ void main() {
     float mean = value, lowest = min(first, last), highest = max(first, last);
     if (crossesLeast() || crossesMost()) {
         const vec2 across = (base + depth) * vec2(dot(gradient, x), dot(gradient, y));
-        width = max(length(across), 2.0 * kLeastChange);
+        width = clamp(length(across), 2.0 * kLeastChange, widestRamp());
         float weighted = 0.0, end = first;
         w = 0.0;
         lowest = 2.0;  // more than f can be

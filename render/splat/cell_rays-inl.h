@@ -119,14 +119,16 @@ struct CellLanes {
         ends(1, values[0], values[3]);
         ends(1 / 3.0f, values[1], values[2]);
     }
-    // The square of the width of the ramp that a pixel makes of an end of the range.
-    HWY_INLINE V acrossPixel2(const RayParts<Lanes>& r) const {
+    // The square of the width of the ramp that a pixel makes of an end of the range, no more than
+    // that of `widest`.
+    HWY_INLINE V acrossPixel2(const RayParts<Lanes>& r, float widest) const {
         constexpr float kLeast = static_cast<float>(2 * kLeastChange);
         const V alongX = dot(r.gradient, x), alongY = dot(r.gradient, y);
         const V depth = hn::Add(base, r.depth);
         const V change2 =
             hn::Mul(hn::Mul(depth, depth), hn::MulAdd(alongX, alongX, hn::Mul(alongY, alongY)));
-        return hn::Max(change2, hn::Set(lanes, kLeast * kLeast));
+        return hn::Min(hn::Max(change2, hn::Set(lanes, kLeast * kLeast)),
+                       hn::Set(lanes, widest * widest));
     }
     HWY_INLINE V dot(const V* a, const V* b) const {
         return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));

@@ -69,6 +69,8 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
     const V depthB = set(static_cast<float>(view.depthB));
     const V base = set(c.base), near = set(view.near - c.base), half = set(0.5f);
     const V stepsX = pixels.columns(lanes), stepsY = pixels.rows(lanes);
+    [[maybe_unused]] const auto widest =
+        cell::widestRamp<float>(c, c.crossesLeast(), c.crossesMost());
     for (int y = least.y; y < most.y; y += kRows) {
         const V oy = hn::Add(set(c.oy + static_cast<float>(y - c.y)), stepsY);
         for (int x = least.x; x < most.x; x += kColumns) {
@@ -94,8 +96,9 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
             const V factor = pixels.load(lanes, room.factor.data() + at);
             if constexpr (kEnds > 0) {
                 const V first = front, last = back;
-                const V width = hn::Max(hn::Mul(hn::Add(base, middle), set(c.across)),
-                                        set(static_cast<float>(2 * kLeastChange)));
+                const V width = hn::Min(hn::Max(hn::Mul(hn::Add(base, middle), set(c.across)),
+                                                set(static_cast<float>(2 * kLeastChange))),
+                                        set(widest));
                 // As if along the view axis: the ray's own length is a factor later.
                 if (c.perRange > 0)
                     t = hn::Max(t, hn::Mul(hn::Mul(perRange, reciprocal(lanes, factor)),
