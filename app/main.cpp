@@ -1,7 +1,6 @@
 // isochron: parses the command line, runs one command, and turns failures into one sentence.
 #include <cstdio>
 #include <exception>
-#include <new>
 #include <stdexcept>
 
 #include "app/choices/choice_text.h"
@@ -9,6 +8,7 @@
 #include "app/files/step_cache.h"
 #include "app/say.h"
 #include "timeseries/index/sorted_step.h"
+#include "timeseries/sentence.h"
 #include "timeseries/together.h"
 
 namespace {
@@ -49,11 +49,8 @@ int main(int argc, char** argv) {
     } catch (const app::ChoiceError& error) {  // what only the data tell to be wrong
         app::sayTo(stderr, "isochron: {}\n", error.what());
         return 2;
-    } catch (const std::bad_alloc&) {
-        app::sayTo(stderr, "isochron: there is not enough memory for this\n");
-        return 1;
     } catch (const std::exception& error) {
-        app::sayTo(stderr, "isochron: {}\n", error.what());
+        app::sayTo(stderr, "isochron: {}\n", timeseries::sentenceOf(error));
         return 1;
     }
 }

@@ -1,6 +1,6 @@
 // The one door by which text leaves for the terminal. Names of files and texts of old files may be
-// Latin-1, or hold what a terminal obeys: what is no UTF-8, or a control other than an end of a
-// line and a tab, becomes U+FFFD.
+// Latin-1, or hold what a terminal obeys: what is no UTF-8, a control other than an end of a line
+// and a tab, or what turns the direction of the text, becomes U+FFFD.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,16 +15,21 @@
 
 namespace app {
 
-// Text that is UTF-8, without controls.
+// Of a code point whether a terminal may obey it instead of showing it: the controls of ASCII and
+// of Latin-1, and those that make what follows run the other way, by which one name looks like
+// another.
+inline bool isObeyed(char32_t point) {
+    return (point < 0x20 && point != U'\n' && point != U'\t') || (point >= 0x7F && point <= 0x9F) ||
+           (point >= 0x202A && point <= 0x202E) || (point >= 0x2066 && point <= 0x2069);
+}
+
+// Well-formed UTF-8 in which nothing is obeyed.
 inline std::string harmless(std::string_view text) {
     std::string out;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool obeyed = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7F;
-        if (obeyed)
-            out += "\uFFFD";
-        else
-            out += c;
+    while (!text.empty()) {
+        const render::CodePoint first = render::firstPoint(text);
+        render::append(out, isObeyed(first.point) ? U'\uFFFD' : first.point);
+        text.remove_prefix(first.length);
     }
     return out;
 }
@@ -33,8 +38,7 @@ inline std::string harmless(std::string_view text) {
 // nobody's to tell.
 template <typename... Arguments>
 void sayTo(std::FILE* file, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    const std::string text =
-        harmless(render::wellFormed(fmt::format(format, std::forward<Arguments>(arguments)...)));
+    const std::string text = harmless(fmt::format(format, std::forward<Arguments>(arguments)...));
     if (std::fwrite(text.data(), 1, text.size(), file) != text.size() && file == stdout)
         throw std::runtime_error("standard output cannot be written");
 }

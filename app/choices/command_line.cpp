@@ -92,6 +92,15 @@ void addChoices(const Explorer& e, Arguments& arguments) {
     }
 }
 
+// Linux says so of a file that is gone or has another in its place, whose name is what is called.
+fs::path programAt(const fs::path& running) {
+    constexpr std::string_view kGone = " (deleted)";
+    std::error_code none;
+    const std::string told = fs::read_symlink(running, none).string();
+    if (!told.ends_with(kGone) || fs::exists(told, none)) return told;
+    return told.substr(0, told.size() - kGone.size());
+}
+
 }  // namespace
 
 std::vector<std::string> renderArguments(const Explorer& e, const fs::path& output,
@@ -106,13 +115,13 @@ std::vector<std::string> renderArguments(const Explorer& e, const fs::path& outp
     return arguments.take();
 }
 
-// /proc/self/exe is what runs; whether a shell finds the same under a bare name is PATH's.
-std::string callOfProgram() {
+// Whether a shell finds what runs under a bare name is PATH's.
+std::string callOfProgram(const fs::path& running) {
     // ./run sets it to its own name, as the user's shell sees it.
     if (const char* run = std::getenv("ISOCHRON_RUN"); run != nullptr && *run != '\0')
         return timeseries::shellWord(run);
     std::error_code gone;
-    const fs::path program = fs::read_symlink("/proc/self/exe", gone);
+    const fs::path program = programAt(running);
     const std::string name = program.filename().string();
     const char* const path = std::getenv("PATH");
     std::istringstream folders(path == nullptr ? "" : path);

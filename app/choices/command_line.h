@@ -18,8 +18,8 @@ std::vector<std::string> renderArguments(const Explorer& explorer,
                                          const std::filesystem::path& folder);
 
 // How a shell calls this program, as a word: ./run of a source tree where it was started by that,
-// else `isochron` where PATH has it, else its path.
-std::string callOfProgram();
+// else `isochron` where PATH has it, else its path. `running` links to its file.
+std::string callOfProgram(const std::filesystem::path& running = "/proc/self/exe");
 
 // One line for a POSIX shell: quoted where needed.
 std::string shellText(const std::vector<std::string>& arguments);

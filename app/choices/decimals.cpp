@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -15,10 +16,26 @@ namespace {
 double numberOf(const std::string& text, double beyondDoubles) {
     double number = beyondDoubles;
     std::from_chars(text.data(), text.data() + text.size(), number);
-    return number;
+    return number + 0.0;  // no -0
 }
 
 double powerOfTen(int exponent) { return numberOf(fmt::format("1e{}", exponent), 0); }
+
+// REQUIRES: finite, > 0.
+int decimalsAt(double resolution) {
+    const int decimals = static_cast<int>(std::ceil(-std::log10(resolution)));
+    // log10 is not exact at powers of ten.
+    return powerOfTen(1 - decimals) <= resolution ? decimals - 1 : decimals;
+}
+
+// Of the shortest text that reads back as it.
+int decimalsOf(double value) {
+    const std::string text = fmt::format("{}", value);
+    const std::size_t power = std::min(text.find('e'), text.size()), point = text.find('.');
+    int exponent = 0;
+    if (power < text.size()) exponent = std::stoi(text.substr(power + 1));
+    return (point < power ? static_cast<int>(power - point) - 1 : 0) - exponent;
+}
 
 }  // namespace
 
@@ -29,10 +46,26 @@ double toDecimals(double value, int decimals) {
 
 double roundedTo(double value, double resolution) {
     if (!std::isfinite(value) || !std::isfinite(resolution)) return value;
-    int decimals = static_cast<int>(std::ceil(-std::log10(resolution)));
-    // log10 is not exact at powers of ten.
-    if (powerOfTen(1 - decimals) <= resolution) --decimals;
-    return toDecimals(value, decimals);
+    return toDecimals(value, decimalsAt(resolution));
+}
+
+double roundedAbove(double value, double resolution) {
+    return 0.0 - roundedBelow(-value, resolution);  // no -0
+}
+
+double roundedBelow(double value, double resolution) {
+    const double next = std::nextafter(value, -timeseries::kInfinity);
+    if (!std::isfinite(value) || !std::isfinite(resolution) || !(resolution > 0)) return next;
+    const int decimals = decimalsAt(resolution);
+    double rounded = toDecimals(value, decimals);
+    if (!(rounded < value)) rounded = toDecimals(rounded - powerOfTen(-decimals), decimals);
+    return rounded < value ? rounded : next;
+}
+
+double decimalSum(double a, double b) {
+    const double sum = a + b;
+    if (!std::isfinite(sum)) return sum;
+    return toDecimals(sum, std::max(decimalsOf(a), decimalsOf(b)));
 }
 
 double shortestIn(timeseries::ValueType type, double value) {

@@ -27,7 +27,7 @@ using timeseries::Range;
 using timeseries::RangeSet;
 using timeseries::SortedStep;
 
-// The double nearest to a number that is not less, not greater, greater, less.
+// The double nearest to a number that is not less, not greater.
 double atLeast(const Number& number) {
     const double d = timeseries::toDouble(number);
     return timeseries::compare(d, number) < 0 ? std::nextafter(d, kInfinity) : d;
@@ -36,18 +36,25 @@ double atMost(const Number& number) {
     const double d = timeseries::toDouble(number);
     return timeseries::compare(d, number) > 0 ? std::nextafter(d, -kInfinity) : d;
 }
-double above(const Number& number) { return std::nextafter(atMost(number), kInfinity); }
-double below(const Number& number) { return std::nextafter(atLeast(number), -kInfinity); }
+// The next greater, less, of all doubles or of those rounded to a resolution; no farther than where
+// an end is already.
+double above(const Number& number, double resolution, const Bound& end) {
+    return std::min(roundedAbove(atMost(number), resolution), atLeast(end.value));
+}
+double below(const Number& number, double resolution, const Bound& end) {
+    return std::max(roundedBelow(atLeast(number), resolution), atMost(end.value));
+}
 
 // The values between its neighbours, where a range may lie.
 struct Room {
     double lo = -kInfinity, hi = kInfinity;
 };
-Room roomOf(const RangeSet& set, std::size_t range) {
+Room roomOf(const RangeSet& set, std::size_t range, double resolution) {
     const auto all = set.ranges();
+    const Range& own = all[range];
     Room room;
-    if (range > 0) room.lo = above(all[range - 1].hi.value);
-    if (range + 1 < all.size()) room.hi = below(all[range + 1].lo.value);
+    if (range > 0) room.lo = above(all[range - 1].hi.value, resolution, own.lo);
+    if (range + 1 < all.size()) room.hi = below(all[range + 1].lo.value, resolution, own.hi);
     return room;
 }
 
@@ -122,16 +129,19 @@ bool isBounded(const Bound& bound) { return std::isfinite(timeseries::toDouble(b
 
 }  // namespace
 
-RangeSet withEnd(const RangeSet& ranges, std::size_t range, End end, double value) {
+RangeSet withEnd(const RangeSet& ranges, std::size_t range, End end, double value,
+                 double resolution) {
     assert(range < ranges.ranges().size());
     Range changed = ranges.ranges()[range];
-    Room room = roomOf(ranges, range);
+    Room room = roomOf(ranges, range, resolution);
     // A range with an open end holds nothing where its ends meet.
     const bool meets = !changed.lo.open && !changed.hi.open;
     if (end == End::Lo)
-        room.hi = meets ? atMost(changed.hi.value) : below(changed.hi.value);
+        room.hi =
+            meets ? atMost(changed.hi.value) : below(changed.hi.value, resolution, changed.lo);
     else
-        room.lo = meets ? atLeast(changed.lo.value) : above(changed.lo.value);
+        room.lo =
+            meets ? atLeast(changed.lo.value) : above(changed.lo.value, resolution, changed.hi);
     if (!(room.lo <= room.hi)) return ranges;
     (end == End::Lo ? changed.lo : changed.hi).value = std::clamp(value, room.lo, room.hi);
     return replaced(ranges, range, changed);
@@ -145,24 +155,28 @@ double steppedEnd(const SortedStep& step, double from, End end, int by, double r
     return up ? std::max(steps, *passed) : std::min(steps, *passed);
 }
 
-RangeSet withMoved(const RangeSet& ranges, std::size_t range, double by) {
+RangeSet withMoved(const RangeSet& ranges, std::size_t range, double by, double resolution) {
     assert(range < ranges.ranges().size());
     Range moved = ranges.ranges()[range];
     const double lo = timeseries::toDouble(moved.lo.value);
     const double hi = timeseries::toDouble(moved.hi.value);
     if (!isBounded(moved.lo) && !isBounded(moved.hi)) return ranges;
-    if (!isBounded(moved.lo)) return withEnd(ranges, range, End::Hi, hi + by);
-    if (!isBounded(moved.hi)) return withEnd(ranges, range, End::Lo, lo + by);
-    Room room = roomOf(ranges, range);
+    if (!isBounded(moved.lo))
+        return withEnd(ranges, range, End::Hi, decimalSum(hi, by), resolution);
+    if (!isBounded(moved.hi))
+        return withEnd(ranges, range, End::Lo, decimalSum(lo, by), resolution);
+    Room room = roomOf(ranges, range, resolution);
     room = {std::max(room.lo, -kMostFinite), std::min(room.hi, kMostFinite)};
     // The end in front is stopped; the other follows at its distance.
-    const double width = hi - lo;
+    const double width = decimalSum(hi, -lo);
     if (by < 0) {
-        moved.lo.value = std::max(lo + by, room.lo);
-        moved.hi.value = std::min(std::get<double>(moved.lo.value) + width, room.hi);
+        const double front = std::max(decimalSum(lo, by), room.lo);
+        moved.lo.value = front;
+        moved.hi.value = std::min(decimalSum(front, width), room.hi);
     } else {
-        moved.hi.value = std::min(hi + by, room.hi);
-        moved.lo.value = std::max(std::get<double>(moved.hi.value) - width, room.lo);
+        const double front = std::min(decimalSum(hi, by), room.hi);
+        moved.hi.value = front;
+        moved.lo.value = std::max(decimalSum(front, -width), room.lo);
     }
     return replaced(ranges, range, moved);
 }
@@ -200,13 +214,18 @@ std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
     ClipBox box = clip.value_or(open);
     double &nowLo = box.lo[static_cast<int>(axis)], &nowHi = box.hi[static_cast<int>(axis)];
     auto [lo, hi] = typedSide(text);
+    const auto [least, most] = grid.ends(axis);
     if (lo == hi && std::isfinite(lo) && grid.mesh()) {
         throw ChoiceError(fmt::format(
             "clip '{}': the points of this grid lie in no plane: give a range, from:to", text));
     } else if (lo == hi && std::isfinite(lo)) {
-        lo = hi = grid.nearestPlane(axis, lo);
+        // What reads as an end of the axis may lie beyond it.
+        const auto readsAs = [&](double end) {
+            return sideText(lo, digits) == sideText(end, digits);
+        };
+        if ((least <= lo && lo <= most) || readsAs(least) || readsAs(most))
+            lo = hi = grid.nearestPlane(axis, lo);
     } else {
-        const auto [least, most] = grid.ends(axis);
         const auto [shownLo, shownHi] = sideOf(clip, grid, axis);
         if (sideText(lo) == sideText(least)) lo = -kInfinity;
         if (sideText(hi) == sideText(most)) hi = kInfinity;

@@ -20,18 +20,20 @@ enum class End { Lo, Hi };
 
 // REQUIRES of what follows: range < ranges.ranges().size().
 // The end of a range dragged to a value: no farther than its other end, and it stops short of its
-// neighbours (the nearest double beyond their ends), so that ranges never merge or vanish under the
-// hand. An open end stays open; an infinite value makes an end unbounded. REQUIRES: not NaN.
+// neighbours, so that ranges never merge or vanish under the hand: at the value next to their ends,
+// as roundedTo() has it of `resolution` (0: the nearest double), or where it is nearer already. An
+// open end stays open; an infinite value makes an end unbounded. REQUIRES: not NaN.
 timeseries::RangeSet withEnd(const timeseries::RangeSet& ranges, std::size_t range, End end,
-                             double value);
+                             double value, double resolution = 0);
 // Where an end at `from` comes to by so many steps of `resolution`, down where `by` < 0: past one
 // of the step's values at least, so that another set of points is selected, however narrow or wide
 // values lie; `from` where there is none. REQUIRES: from is finite, by != 0, resolution > 0.
 double steppedEnd(const timeseries::SortedStep& step, double from, End end, int by,
                   double resolution);
-// The whole range dragged by `by` (finite), stopped by its neighbours; its width stays, to
+// The whole range dragged by `by` (finite), stopped likewise by its neighbours; its width stays, to
 // rounding. Unbounded ends stay.
-timeseries::RangeSet withMoved(const timeseries::RangeSet& ranges, std::size_t range, double by);
+timeseries::RangeSet withMoved(const timeseries::RangeSet& ranges, std::size_t range, double by,
+                               double resolution = 0);
 timeseries::RangeSet without(const timeseries::RangeSet& ranges, std::size_t range);
 timeseries::RangeSet with(const timeseries::RangeSet& ranges, const timeseries::Range& added);
 
@@ -42,9 +44,10 @@ std::optional<ClipBox> withClipEnd(const std::optional<ClipBox>& clip, const tim
                                    std::size_t axis, End end, double coordinate);
 
 // One side of the clip box as it is typed: "2:5.5", "min:3", "" for all of the axis; a value alone
-// is a slice, the grid's plane nearest to it. An end that reads as the axis's own does is that end,
-// whatever digits it was told with; one that reads as it was shown, with so many digits, stays as
-// it is. Throws ChoiceError where that is none of these or holds no point of the grid.
+// is a slice: the plane nearest to it, of a grid that it lies in. An end that reads as the axis's
+// own does is that end, whatever digits it was told with; one that reads as it was shown, with so
+// many digits, stays as it is. Throws ChoiceError where that is none of these or holds no point of
+// the grid.
 constexpr int kClipDigits = 7;
 std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
                                     const timeseries::Grid& grid, std::size_t axis,

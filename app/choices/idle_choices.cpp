@@ -2,19 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 namespace app {
-namespace {
 
-// Why nothing is lit; "" where cells are.
 std::string_view whyUnlit(const Explorer& e) {
     if (modelOf(e) == Model::Points) return "points are not lit";
     if (e.order == render::Order::None) return "light needs the order of depth";
     return "";
 }
-
-}  // namespace
 
 std::vector<std::string> idleChoices(const Explorer& e) {
     std::vector<std::string> idle;

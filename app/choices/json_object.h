@@ -18,6 +18,22 @@
 
 namespace app {
 
+// JSON of which no object has a key twice: of two values that differ one would be lost. Throws
+// ChoiceError, and what the parser throws.
+nlohmann::json parseStrictly(auto&& input) {
+    using nlohmann::json;
+    std::vector<std::set<std::string>> keys;  // of the objects that are open, outermost first
+    return json::parse(input, [&](int, json::parse_event_t event, const json& parsed) {
+        if (event == json::parse_event_t::object_start) keys.emplace_back();
+        if (event == json::parse_event_t::object_end) keys.pop_back();
+        if (event == json::parse_event_t::key &&
+            !keys.back().insert(parsed.get_ref<const std::string&>()).second)
+            throw ChoiceError(fmt::format("an object has the key '{}' twice",
+                                          parsed.get_ref<const std::string&>()));
+        return true;
+    });
+}
+
 // One JSON object being read: every key must be asked for, and be of the type asked for.
 class JsonObject {
  public:

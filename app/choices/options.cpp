@@ -14,6 +14,7 @@
 #include "app/choices/choices.h"
 #include "app/choices/explorer_options.h"
 #include "app/choices/option_checks.h"
+#include "render/image/picture_file.h"
 
 namespace app {
 namespace {
@@ -99,16 +100,14 @@ void addOutput(CLI::App& app, OutputText& into) {
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr")->required();
 }
 
-bool isExr(const std::filesystem::path& file) { return file.extension() == ".exr"; }
-
 void checkOutput(const RenderOptions& options) {
-    const auto extension = options.output.extension();
-    if (extension != ".png" && extension != ".exr")
+    const bool isExr = render::isExr(options.output);
+    if (!isExr && !render::isPng(options.output))
         throw ChoiceError(
             fmt::format("output '{}' ends neither in .png nor in .exr", options.output.string()));
-    if (options.explorer.stereo.mode == Stereo::MultiView && !isExr(options.output))
+    if (options.explorer.stereo.mode == Stereo::MultiView && !isExr)
         throw ChoiceError("stereo multiview needs an output that ends in .exr");
-    if ((options.opticalDepth || options.splatCount) && !isExr(options.output))
+    if ((options.opticalDepth || options.splatCount) && !isExr)
         throw ChoiceError("--channel needs an output that ends in .exr");
     const Stereo mode = options.explorer.stereo.mode;
     if ((options.opticalDepth || options.splatCount) &&

@@ -14,6 +14,7 @@
 #include "app/choices/paths.h"
 #include "app/choices/user_files.h"
 #include "app/json_text.h"
+#include "timeseries/readers/ordinary_file.h"
 
 namespace app {
 namespace {
@@ -141,17 +142,22 @@ void remember(Preferences& preferences, Named named) {
 fs::path preferencesFile() { return configFolder() / "preferences.json"; }
 
 ReadPreferences readPreferences(const fs::path& file) {
-    std::ifstream in(file);
-    if (!in) return {};
-    std::string why;
+    std::error_code unknown;
+    if (fs::status(file, unknown).type() == fs::file_type::not_found) return {};
+    std::string why = timeseries::flawOfFile(file);
     try {
-        return {fromJson(json::parse(in)), ""};
+        if (why.empty()) {
+            std::ifstream in(file);
+            return {fromJson(json::parse(in)), ""};
+        }
     } catch (const json::parse_error& error) {
         why = fmt::format("not JSON at byte {}", error.byte);
     } catch (const json::out_of_range&) {
         why = "it holds a number beyond all doubles";
     } catch (const std::invalid_argument& error) {
         why = error.what();
+    } catch (const std::ios_base::failure&) {
+        why = "it cannot be read";
     }
     return {{}, fmt::format("{}: the preferences are not used: {}", file.string(), why)};
 }

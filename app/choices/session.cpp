@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -14,9 +15,12 @@
 #include "app/choices/choices.h"
 #include "app/choices/json_object.h"
 #include "app/choices/paths.h"
+#include "render/annotate/utf8.h"
 #include "render/image/exr.h"
+#include "render/image/picture_file.h"
 #include "render/image/png.h"
 #include "timeseries/readers/reader.h"
+#include "timeseries/readers/text/words.h"
 
 namespace app {
 namespace {
@@ -65,6 +69,40 @@ LayerChoice readStyle(JsonObject& object) {
                              [&](const std::string& m) { layer.model = parseLayerModel(m); });
     object.read<bool>("visible", [&](bool b) { layer.visible = b; });
     return layer;
+}
+
+bool isUtf8(const std::string& text) { return render::wellFormed(text) == text; }
+
+// A path with what is no UTF-8, which JSON cannot hold, as %XX, and each % of its own, too.
+std::string escaped(std::string_view path) {
+    std::string text;
+    while (!path.empty()) {
+        const render::CodePoint first = render::firstPoint(path);
+        if (first.isMalformed() || first.point == U'%')
+            text += fmt::format("%{:02X}", static_cast<unsigned char>(path[0]));
+        else
+            text += path.substr(0, first.length);
+        path.remove_prefix(first.length);
+    }
+    return text;
+}
+
+// And back.
+std::string unescaped(std::string_view text) {
+    std::string path;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        unsigned char byte = static_cast<unsigned char>(text[i]);
+        if (text[i] == '%') {
+            const std::string_view digits = text.substr(i + 1, 2);
+            const auto [end, error] =
+                std::from_chars(digits.data(), digits.data() + digits.size(), byte, 16);
+            if (error != std::errc() || end != digits.data() + 2)
+                throw ChoiceError("has a path with a % that no two hexadecimal digits follow");
+            i += 2;
+        }
+        path += static_cast<char>(byte);
+    }
+    return path;
 }
 
 // The value that a session has for a choice's text.
@@ -171,12 +209,19 @@ void readChoices(JsonObject& session, Explorer& e) {
 
 json toJson(const Explorer& e, const std::filesystem::path& folder, Paths paths) {
     json out{{"isochron", kVersion}};
+    std::vector<std::string> files, were;
     for (const auto& file : e.files) {
-        out["files"].push_back(relativeTo(folder, file).generic_string());
+        files.push_back(relativeTo(folder, file).generic_string());
         if (paths == Paths::Both)
-            out["filesWere"].push_back(
-                std::filesystem::absolute(file).lexically_normal().generic_string());
+            were.push_back(std::filesystem::absolute(file).lexically_normal().generic_string());
     }
+    if (!std::ranges::all_of(files, isUtf8) || !std::ranges::all_of(were, isUtf8)) {
+        out["filesEscaped"] = true;
+        std::ranges::transform(files, files.begin(), escaped);
+        std::ranges::transform(were, were.begin(), escaped);
+    }
+    if (!files.empty()) out["files"] = files;
+    if (!were.empty()) out["filesWere"] = were;
     writeChoices(e, out);
     if (!e.stepTime.empty()) out["stepTime"] = e.stepTime;
     for (const LayerChoice& layer : e.layers) {
@@ -198,17 +243,27 @@ Explorer fromJson(const json& value, const std::filesystem::path& folder) {
     if (version != kVersion)
         throw ChoiceError(
             fmt::format("session.isochron is not {}, the version read here", kVersion));
+    bool areEscaped = false;
+    object.read<bool>("filesEscaped", [&](bool are) { areEscaped = are; });
+    const auto pathOf = [&](const std::string& text) {
+        std::string path = areEscaped ? unescaped(text) : text;
+        if (path.find('\0') != std::string::npos) throw ChoiceError("has a path with a NUL in it");
+        return std::filesystem::path(std::move(path));
+    };
     object.read<std::vector<std::string>>("files", [&](const auto& files) {
-        for (const std::string& file : files) e.files.push_back((folder / file).lexically_normal());
+        for (const std::string& file : files)
+            e.files.push_back((folder / pathOf(file)).lexically_normal());
     });
-    object.read<std::vector<std::string>>("filesWere", [&](const auto& were) {
+    object.read<std::vector<std::string>>("filesWere", [&](const auto& texts) {
+        std::vector<std::filesystem::path> were;
+        for (const std::string& text : texts) were.push_back(pathOf(text));
         if (were.size() != e.files.size())
             throw ChoiceError(
                 fmt::format("has {} paths for {} files", were.size(), e.files.size()));
         for (std::size_t i = 0; i < were.size(); ++i)
             if (isThere(were[i]) || !isThere(e.files[i])) e.files[i] = were[i];
     });
-    object.read<double>(kSessionErrorKey, [](double) {});
+    object.read<json>(kSessionErrorKey, [](const json&) {});
     object.read<json>("layers", [&](const json& layers) {
         if (!layers.is_array()) throw ChoiceError("is not a list");
         e.noLayers = layers.empty();
@@ -238,10 +293,10 @@ namespace {
 
 // The session that a picture carries; none where the file is no picture.
 std::optional<std::string> embedded(const std::filesystem::path& file) {
-    const auto ending = file.extension();
-    if (ending != ".png" && ending != ".exr") return std::nullopt;
+    const bool isPng = render::isPng(file);
+    if (!isPng && !render::isExr(file)) return std::nullopt;
     const render::Metadata texts =
-        ending == ".png" ? render::readPng(file).metadata : render::readExr(file).metadata;
+        isPng ? render::readPng(file).metadata : render::readExr(file).metadata;
     const auto found = texts.find(kSessionKey);
     if (found == texts.end())
         throw FileError(
@@ -250,18 +305,18 @@ std::optional<std::string> embedded(const std::filesystem::path& file) {
 }
 
 json jsonOf(const std::filesystem::path& file) {
-    if (const auto text = embedded(file)) return json::parse(*text);
+    if (const auto text = embedded(file)) return parseStrictly(*text);
     std::ifstream in(file);
     if (!in || std::filesystem::is_directory(file))
         throw FileError(fmt::format("{}: the session file cannot be opened", file.string()));
-    return json::parse(in);
+    return parseStrictly(in);
 }
 
 }  // namespace
 
 bool holdsSession(const std::filesystem::path& file) {
-    const auto ending = file.extension();
-    return ending == ".json" || ending == ".png" || ending == ".exr";
+    return timeseries::lower(file.extension().string()) == ".json" || render::isPng(file) ||
+           render::isExr(file);
 }
 
 Explorer readSession(const std::filesystem::path& file) {

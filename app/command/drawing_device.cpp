@@ -13,8 +13,7 @@ DrawingDevice::DrawingDevice(const DrawnBy& asked) : by_(asked.splatter) {
     if (by_ == Choice::ByDevice || by_ == Choice::Gl) context_.emplace(asked.device);
 }
 
-std::string DrawingDevice::name() const {
-    if (context_) return context_->renderer();
+std::string DrawingDevice::program() const {
     if (by_ == Choice::Exact) return "the program in double on 1 thread";
     const unsigned threads = render::sharingThreads();
     return fmt::format("the program on {} thread{}", threads, threads == 1 ? "" : "s");

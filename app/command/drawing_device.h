@@ -16,8 +16,10 @@ class DrawingDevice {
     explicit DrawingDevice(const DrawnBy& asked);
     // As asked, or Cpu where only a processor could have drawn.
     render::SplatterChoice splatter() const { return by_; }
-    // "llvmpipe (LLVM 15.0.6, 256 bits), GL 4.5"; "the program on 2 threads".
-    std::string name() const;
+    // "llvmpipe (LLVM 15.0.6, 256 bits), GL 4.5"; "the program on 2 threads", which draws where
+    // there is no context, and what GL does not.
+    std::string name() const { return context_ ? context_->renderer() : program(); }
+    std::string program() const;
 
  private:
     render::SplatterChoice by_;

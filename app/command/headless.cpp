@@ -62,6 +62,7 @@ void tellFiles(const FrameFiles& frames, const timeseries::Variable& variable) {
 struct Told {
     std::size_t mixed = 0;  // how many say that their colours are mixed
     std::size_t empty = 0;  // of how many no layer has a point
+    std::size_t byGl = 0;   // how many GL has drawn
     std::size_t flat = 0;   // how many lie flat that were to lie on a globe,
     std::string whyFlat{};  // and why
 };
@@ -199,6 +200,7 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
         if (drawn.mixed) ++told.mixed;
         const bool isBesideClip = e.clip && !clipFlaw(*e.clip, step->grid()).empty();
         if (drawn.points == 0 || isBesideClip) ++told.empty;
+        if (drawn.byGl) ++told.byGl;
         if (std::string why = whyFlat(e, step->grid(), *placed); !why.empty()) {
             ++told.flat;
             told.whyFlat = std::move(why);
@@ -213,6 +215,13 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
     return told;
 }
 
+std::string whoDrew(const DrawingDevice& device, std::size_t byGl, std::size_t all) {
+    if (byGl == all) return device.name();
+    if (byGl == 0) return device.program();
+    return fmt::format("{}, {} of {} pictures by {}", device.name(), all - byGl, all,
+                       device.program());
+}
+
 }  // namespace
 
 int renderHeadless(const RenderOptions& options) {
@@ -224,7 +233,7 @@ int renderHeadless(const RenderOptions& options) {
     const FrameFiles frames(options.output, e, chosen.steps, dataset.stepCount());
     makeFoldersOf(frames.output());  // before the work: what cannot be made is told at once
     const MiddleError error = errorOfMiddle(e, frames, *chosen.source);
-    const auto [mixed, empty, flat, why] =
+    const auto [mixed, empty, byGl, flat, why] =
         drawFrames(options, e, dataset.variable, frames, error, *chosen.source, renderer);
     tellFiles(frames, dataset.variable);
     if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
@@ -237,7 +246,9 @@ int renderHeadless(const RenderOptions& options) {
         say("  note: colours are mixed{}: the mean optical depth is more than {}; --order depth "
             "draws what is in front over what is behind\n",
             inSome(mixed), render::kMixedDepth);
-    if (empty > 0)
+    if (const std::string hidden = whyNothing(e); !hidden.empty())
+        say("  note: {}\n", hidden);
+    else if (empty > 0)
         say("  note: 0 points are selected{}{}\n", e.clip ? " in the clip box" : "", inSome(empty));
     if (const std::string leftOut = frames.leftOut(); !leftOut.empty())
         say("  note: {}; --timer-steps says how many\n", leftOut);
@@ -250,7 +261,7 @@ int renderHeadless(const RenderOptions& options) {
     if (const auto* const sweep = sweepOf(e); sweep && !e.oneTick && sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
             static_cast<double>(frames.size()) * sweep->frequency, sweep->frequency);
-    say("  drawn by {}\n", device.name());
+    say("  drawn by {}\n", whoDrew(device, byGl, frames.size()));
     return 0;
 }
 

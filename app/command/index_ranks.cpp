@@ -14,6 +14,7 @@
 #include "app/say.h"
 #include "timeseries/grid/with_type.h"
 #include "timeseries/ranks/shared_step.h"
+#include "timeseries/sentence.h"
 #include "timeseries/together.h"
 
 namespace app {
@@ -254,7 +255,7 @@ int indexByRanks(const IndexOptions& options) {
         if (ranks.isFirst()) sayTo(stderr, "isochron: {}\n", error.what());
         return 1;
     } catch (const std::exception& error) {  // the others would wait for ever
-        sayTo(stderr, "isochron: {}\n", error.what());
+        sayTo(stderr, "isochron: {}\n", timeseries::sentenceOf(error));
         MPI_Abort(MPI_COMM_WORLD, 1);
         return 1;
     }

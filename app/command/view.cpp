@@ -15,6 +15,7 @@
 #include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/reader.h"
 #include "timeseries/readers/series_files.h"
+#include "timeseries/sentence.h"
 
 namespace app {
 namespace {
@@ -53,7 +54,8 @@ class Viewing {
             if (auto* none = std::get_if<xr::NoHeadset>(&opened)) return std::move(none->why);
             headset = std::get<0>(std::move(opened));
         } catch (const std::exception& error) {
-            return error.what();  // before there is a session, a window does as well
+            return timeseries::sentenceOf(
+                error);  // before there is a session, a window does as well
         }
         begin();
         try {
@@ -117,7 +119,7 @@ int view(const ViewOptions& options) {
         requireThere(options.explorer.files);
         Viewing(options).run();
     } catch (const std::exception& error) {
-        sayTo(stderr, "isochron: {}\n", error.what());
+        sayTo(stderr, "isochron: {}\n", timeseries::sentenceOf(error));
         code = EXIT_FAILURE;
     }
     // A read that nobody waits for may still run: see exploration.h.

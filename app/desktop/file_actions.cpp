@@ -12,6 +12,7 @@
 #include "app/json_text.h"
 #include "app/picture/depth_error.h"
 #include "app/picture/picture.h"
+#include "timeseries/sentence.h"
 
 namespace app::desktop {
 namespace {
@@ -42,7 +43,7 @@ void telling(Exploration& exploration, const Work& work) {
     try {
         work();
     } catch (const std::exception& error) {
-        exploration.tell(error.what(), true);
+        exploration.tell(timeseries::sentenceOf(error), true);
     }
 }
 
@@ -134,6 +135,8 @@ void FileActions::save(const fs::path& file, const std::optional<double>& error)
             e.stepTime = timeKept(*shown->dataset.variable.time, shown->step);
         nlohmann::json session = toJson(e, file.parent_path());
         if (error && std::isfinite(*error)) session[kSessionErrorKey] = *error;
+        if (error && std::isinf(*error))
+            session[kSessionErrorKey] = "inf";  // JSON has no such number
         writeWhole(file, jsonText(session, 2) + "\n");
         exploration_.tell("Saved " + file.string());
         exploration_.expectSameFiles();

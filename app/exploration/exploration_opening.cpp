@@ -22,8 +22,13 @@ namespace {
 void takeLook(Explorer& e, const Explorer& from) {
     e.view = from.view;
     e.stereo = from.stereo;
+    e.model = from.model;
+    e.light = from.light;
+    e.lamp = from.lamp;
+    e.opacityPer = from.opacityPer;
     e.footprint = from.footprint;
     e.order = from.order;
+    e.legend = from.legend;
     e.size = from.size;
 }
 

@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -40,9 +41,20 @@ constexpr std::chrono::milliseconds kLongestEnd{2000};
         fmt::format("the export cannot be started: {}: {}", what, std::strerror(error)));
 }
 
+// The system's error does not say which folder it is about.
+fs::path temporaryFolder() {
+    std::error_code error;
+    fs::path folder = fs::temp_directory_path(error);
+    if (!error) return folder;
+    for (const char* name : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"})  // in the order of the library
+        if (const char* const value = std::getenv(name))
+            fail(fmt::format("'{}', which {} names", value, name), error.value());
+    fail("/tmp", error.value());
+}
+
 // A new file that only this user reads, with the session in it.
 fs::path writeSession(const Explorer& explorer) {
-    const fs::path folder = fs::temp_directory_path();
+    const fs::path folder = temporaryFolder();
     std::string name = (folder / "isochron-export-XXXXXX.json").string();
     const int descriptor = mkostemps(name.data(), 5, O_CLOEXEC);
     if (descriptor < 0) fail(name, errno);
@@ -97,18 +109,15 @@ class Spawn {
 };
 
 // What a child that was killed leaves of the picture it was writing.
-void removePartial(const fs::path& output) {
+void removePartial(const FrameFiles& frames) {
+    const fs::path& output = frames.output();
     const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
     std::vector<fs::path> partial;
     std::error_code error;
-    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-        const std::string name = at->path().filename().string();
-        if (name.starts_with(output.stem().string()) &&
-            at->path().stem().extension() == output.extension() &&
-            at->path().extension().string().starts_with(render::PartialFile::kSuffix))
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+        if (frames.has(render::PartialFile::destinationOf(at->path().filename())))
             partial.push_back(at->path());
-    }
-    for (const fs::path& file : partial) fs::remove(file, error);
+    for (const fs::path& file : partial) render::PartialFile::removeLeft(file);
 }
 
 // The last line that says something, without the program's name.
@@ -191,7 +200,7 @@ ExportJob::~ExportJob() {
     do ends = ::poll(&end, 1, kLongestEnd.count());
     while (ends < 0 && errno == EINTR);
     if (ends == 1) waitpid(child_, nullptr, 0);
-    removePartial(frames_.output());
+    removePartial(frames_);
     removeSession();
 }
 
@@ -233,7 +242,7 @@ void ExportJob::ended(int status) {
         state_ = State::Done;
         return;
     }
-    removePartial(frames_.output());
+    removePartial(frames_);
     state_ = cancelled_ ? State::Cancelled : State::Failed;
     if (cancelled_) return;
     why_ = lastLine(errorText_);

@@ -6,6 +6,8 @@
 #include <thread>
 #include <utility>
 
+#include "timeseries/sentence.h"
+
 namespace app {
 
 struct Opening::Shared {
@@ -23,7 +25,7 @@ std::variant<OpenDataset, std::string> opened(const std::vector<std::filesystem:
     } catch (const std::bad_alloc&) {
         return named.front().string() + ": there is not enough memory to open it";
     } catch (const std::exception& error) {
-        return error.what();
+        return timeseries::sentenceOf(error);
     }
 }
 

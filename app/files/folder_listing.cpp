@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/choices/session.h"
 #include "timeseries/readers/reader.h"
 
 namespace app {
@@ -47,8 +48,7 @@ bool isFolder(const fs::path& path) {
 }
 
 bool opens(const fs::path& file) {
-    const std::string extension = file.extension().string();
-    if (extension == ".json" || extension == ".png" || extension == ".exr") return true;
+    if (holdsSession(file)) return true;
     try {
         return timeseries::isReadable(file);
     } catch (const std::exception&) {

@@ -57,27 +57,27 @@ std::optional<std::size_t> FrameFiles::numbered(std::size_t number) const {
     return static_cast<std::size_t>(step - steps_.begin());
 }
 
+bool FrameFiles::has(const fs::path& name) const {
+    std::optional<std::size_t> i = 0;
+    if (count_ > 1) {
+        const std::string text = name.string();
+        const std::size_t stem = output_.stem().string().size() + 1;
+        const char* const digits = text.data() + std::min(stem, text.size());
+        std::size_t number = 0;
+        const auto read = std::from_chars(digits, text.data() + text.size(), number);
+        i = read.ec == std::errc{} ? numbered(number) : std::nullopt;
+    }
+    return i && std::ranges::any_of(filesOf((*this)[*i].file, stereo_),
+                                    [&](const fs::path& file) { return file.filename() == name; });
+}
+
 // By the names that are there: of those that may come there are too many to look for each.
 std::size_t FrameFiles::existing() const {
-    const auto isOf = [&](std::size_t i, const fs::path& name) {
-        return std::ranges::any_of(filesOf((*this)[i].file, stereo_),
-                                   [&](const fs::path& file) { return file.filename() == name; });
-    };
-    const std::size_t stem = output_.stem().string().size() + 1;
     const fs::path folder = output_.has_parent_path() ? output_.parent_path() : ".";
     std::size_t found = 0;
     std::error_code error;
-    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-        const std::string name = at->path().filename().string();
-        std::optional<std::size_t> i = 0;
-        std::size_t number = 0;
-        if (count_ > 1) {
-            const char* const digits = name.data() + std::min(stem, name.size());
-            const auto read = std::from_chars(digits, name.data() + name.size(), number);
-            i = read.ec == std::errc{} ? numbered(number) : std::nullopt;
-        }
-        if (i && isOf(*i, name)) ++found;
-    }
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+        if (has(at->path().filename())) ++found;
     return found;
 }
 

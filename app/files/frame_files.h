@@ -44,6 +44,8 @@ class FrameFiles {
     // there are by now.
     std::size_t fileCount() const;
     std::size_t existing() const;
+    // Whether one of them has this name in the folder of all.
+    bool has(const std::filesystem::path& name) const;
 
  private:
     // Which picture the number in a file's name is about.

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "render/image/exr.h"
+#include "render/image/picture_file.h"
 #include "render/image/png.h"
 
 namespace app {
@@ -20,7 +21,7 @@ render::ExrView exrView(std::string name, EyePicture picture) {
 }
 
 void writeOne(const fs::path& file, EyePicture picture, const render::Metadata& metadata) {
-    if (file.extension() == ".exr") {
+    if (render::isExr(file)) {
         const std::array views{exrView("", std::move(picture))};
         render::writeExr(file, views, metadata);
     } else {

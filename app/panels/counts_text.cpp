@@ -24,4 +24,13 @@ std::string cellsText(std::uint64_t cells, std::uint64_t points) {
            " drawn";
 }
 
+std::string percentText(std::uint64_t count, std::uint64_t of) {
+    constexpr double kLeastTold = 1e-4;
+    if (of == 0) return "";
+    if (count == 0) return "0 %";
+    const double share = 100 * static_cast<double>(count) / static_cast<double>(of);
+    if (share < kLeastTold) return "below 0.0001 %";
+    return fmt::format("{:.{}f} %", share, share >= 10 ? 1 : share >= 0.1 ? 2 : 4);
+}
+
 }  // namespace app::panels

@@ -16,4 +16,7 @@ std::string drawnText(const DrawnCounts& drawn);
 // "1 cell drawn", "3,321 cells drawn", "3,321 cells and 20 points drawn".
 std::string cellsText(std::uint64_t cells, std::uint64_t points = 0);
 
+// "12.3 %", "0.25 %", "0.0031 %", "0 %" of none alone; "" of nothing.
+std::string percentText(std::uint64_t count, std::uint64_t of);
+
 }  // namespace app::panels

@@ -73,7 +73,8 @@ void drawErrorParts(PanelContext& context) {
     const Rect& status = context.layout.status;
     const float s = theme.scale;
     const auto place =
-        errorPlace(theme, context.layout, context.performance, context.exploration.series());
+        shownFigures(theme, context.layout, context.performance, context.exploration.series())
+            .error;
     beginRegion("##figures", status, kClear);
     if (place) {
         const Pressing p = button("##error", *place);

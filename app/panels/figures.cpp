@@ -44,9 +44,19 @@ std::string errorFigure(const Performance& p) {
     return depth.empty() ? "" : depth + lightErrorText(*error, p.errors->ordering);
 }
 
-// Where it begins; its middle.
-glm::vec2 firstLine(const Layout& layout) {
-    return layout.status.min + layout.scale * glm::vec2(kMargin, 13);
+// Where a line begins; its middle.
+glm::vec2 beginOf(const Layout& layout, std::size_t line) {
+    return layout.status.min +
+           layout.scale * glm::vec2(kMargin, 13.0f + 18.0f * static_cast<float>(line));
+}
+
+// Without the last figures, which there is no room for: one that is cut would read as another.
+std::string leftIn(ImFont& font, std::string figures, float width) {
+    while (!figures.empty() && widthOf(font, figures) > width) {
+        const std::size_t last = figures.rfind(kApart);
+        figures.resize(last == std::string::npos ? 0 : last);
+    }
+    return figures;
 }
 
 }  // namespace
@@ -67,7 +77,7 @@ std::vector<std::string> figuresOf(const Performance& p, const timeseries::Serie
                                    .allSplats = r.selected,
                                    .points = counts.inClipBox ? r.selected : counts.selected}) +
                         clipping);
-    if (const std::string error = errorFigure(p); !error.empty()) lines.back() += kApart + error;
+    if (std::string error = errorFigure(p); !error.empty()) lines.push_back(std::move(error));
     lines.push_back(fmt::format(
         "{} selected{}  ·  {}{}", withCommas(counts.selected),
         counts.inClipBox ? " in the clip box" : "",
@@ -83,18 +93,37 @@ std::vector<std::string> figuresOf(const Performance& p, const timeseries::Serie
     return lines;
 }
 
-std::optional<Rect> errorPlace(const Theme& theme, const Layout& layout,
-                               const Performance& performance, const timeseries::Series* series) {
-    const std::string error = errorFigure(performance);
-    const std::vector<std::string> lines = figuresOf(performance, series);
-    if (error.empty() || lines.empty()) return std::nullopt;
-    const std::string before = lines[0].substr(0, lines[0].size() - error.size());
-    const float s = theme.scale, left = firstLine(layout).x + widthOf(*theme.small, before);
-    const float right =
-        std::min(left + widthOf(*theme.small, error), layout.status.max.x - kMargin * s);
-    const float y = firstLine(layout).y;
-    if (!(right - left > 16 * s)) return std::nullopt;  // no room is left for it
-    return Rect{{left - 4 * s, y - 9 * s}, {right + 4 * s, y + 9 * s}};
+// One below the other, or the first ones joined where there is room for fewer lines. What there is
+// no room for beside the error is left out.
+ShownFigures shownFigures(const Theme& theme, const Layout& layout, const Performance& p,
+                          const timeseries::Series* series) {
+    ShownFigures shown;
+    std::vector<std::string>& lines = shown.lines = figuresOf(p, series);
+    if (lines.empty()) return shown;
+    ImFont& font = *theme.small;
+    const float width = layout.status.size().x - 2 * kMargin * theme.scale;
+    std::string before, error = errorFigure(p);
+    std::size_t at = 1;
+    while (lines.size() > statusLines(layout)) {
+        if (at == 1) before = lines[0] + kApart;
+        at = 0;
+        lines[0] += kApart + lines[1];
+        lines.erase(lines.begin() + 1);
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (error.empty() || i != at) lines[i] = fitting(font, lines[i], width);
+    if (error.empty()) return shown;
+    std::string after = lines[at].substr(before.size() + error.size());
+    // Then how many there are, and last why light has an error.
+    if (widthOf(font, before + error) > width) before.clear();
+    if (widthOf(font, error) > width) error.resize(std::min(error.size(), error.find(" (")));
+    error = fitting(font, error, width);
+    after = leftIn(font, after, width - widthOf(font, before + error));
+    lines[at] = before + error + after;
+    const float s = theme.scale, left = beginOf(layout, at).x + widthOf(font, before);
+    const float y = beginOf(layout, at).y;
+    shown.error = Rect{{left - 4 * s, y - 9 * s}, {left + widthOf(font, error) + 4 * s, y + 9 * s}};
+    return shown;
 }
 
 std::vector<std::string> errorLines(const Performance& p) {
@@ -131,25 +160,15 @@ void drawErrorTip(const Theme& theme, const Rect& figures, const std::vector<std
     }
 }
 
-// One below the other, or joined where there is room for fewer lines.
 void drawFigures(const Theme& theme, const Layout& layout, const Performance& performance,
                  const timeseries::Series* series) {
-    std::vector<std::string> lines = figuresOf(performance, series);
+    const std::vector<std::string> lines = shownFigures(theme, layout, performance, series).lines;
     if (lines.empty()) return;
-    while (lines.size() > statusLines(layout)) {
-        lines[0] += kApart + lines[1];
-        lines.erase(lines.begin() + 1);
-    }
-    const float s = theme.scale;
     const Rect& at = layout.status;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled(im(at.min), im(at.max), kGround);
-    glm::vec2 place = firstLine(layout);
-    for (const std::string& line : lines) {
-        const std::string shown = fitting(*theme.small, line, at.size().x - 2 * kMargin * s);
-        text(list, place, shown, kDim, 0, *theme.small);
-        place.y += 18 * s;
-    }
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        text(list, beginOf(layout, i), lines[i], kDim, 0, *theme.small);
     if (at.holds(vec(ImGui::GetIO().MousePos)) && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
         drawErrorTip(theme, at, errorLines(performance));
 }

@@ -12,9 +12,14 @@ namespace app::panels {
 // A line each; none before the first picture.
 std::vector<std::string> figuresOf(const Performance& performance,
                                    const timeseries::Series* series);
-// Where drawFigures() has the error, which is pressed there; none where it is not told.
-std::optional<Rect> errorPlace(const Theme& theme, const Layout& layout,
-                               const Performance& performance, const timeseries::Series* series);
+// As drawFigures() has them, in lines that have room, and where the error stands, which is pressed
+// there; none where it is not told.
+struct ShownFigures {
+    std::vector<std::string> lines = {};
+    std::optional<Rect> error = {};
+};
+ShownFigures shownFigures(const Theme& theme, const Layout& layout, const Performance& performance,
+                          const timeseries::Series* series);
 // What is said of the error where the pointer asks for it: what each way to draw would have. Empty
 // where it is not known.
 std::vector<std::string> errorLines(const Performance& performance);

@@ -6,6 +6,8 @@
 
 #include "app/choices/paths.h"
 #include "app/exploration/export_job.h"
+#include "render/image/picture_file.h"
+#include "timeseries/readers/text/words.h"
 
 namespace app::panels {
 namespace {
@@ -63,7 +65,8 @@ void FilePanel::ask(For what, const fs::path& path) {
 
 fs::path FilePanel::chosen() const {
     fs::path path = meant(typed_, folder_).lexically_normal();
-    if (for_ == For::Save && path.extension() != ".json") path += ".json";
+    if (for_ == For::Save && timeseries::lower(path.extension().string()) != ".json")
+        path += ".json";
     return path;
 }
 
@@ -98,7 +101,7 @@ std::string FilePanel::flaw(const fs::path& path) const {
     if (*for_ == For::Open) return isThere(path) ? "" : "There is no such file";
     if (!fs::is_directory(path.parent_path(), gone))
         return fmt::format("There is no folder {}", path.parent_path().string());
-    const bool isPicture = path.extension() == ".png" || path.extension() == ".exr";
+    const bool isPicture = render::isPng(path) || render::isExr(path);
     return *for_ == For::Save || isPicture ? "" : "Its name ends in .png or in .exr";
 }
 

@@ -107,7 +107,7 @@ void HistogramPanel::moveEndsByKeys(const Drawing& f) {
     if (!moved) return;
     edit(context, "histogram", [&](Explorer& e) {
         timeseries::RangeSet& ranges = e.layers[moved->layer].ranges;
-        ranges = withEnd(ranges, moved->range, moved->end, moved->to);
+        ranges = withEnd(ranges, moved->range, moved->end, moved->to, f.axis.perPixel());
     });
 }
 

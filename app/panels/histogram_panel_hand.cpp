@@ -118,7 +118,7 @@ void HistogramPanel::drag(const Drawing& f, glm::vec2 mouse) {
     const auto setAnimation = [&](std::size_t range, End end) {
         edit(context, "histogram", [&](Explorer& e) {
             if (auto* const sweep = sweepOf(e))
-                sweep->animation = withEnd(grab_.ranges, range, end, value);
+                sweep->animation = withEnd(grab_.ranges, range, end, value, f.axis.perPixel());
         });
     };
     switch (grab_.grip) {
@@ -130,13 +130,14 @@ void HistogramPanel::drag(const Drawing& f, glm::vec2 mouse) {
             if (moved.y < 1) return;
             return setRanges(withEnd(grab_.ranges, grab_.range,
                                      grab_.grip == Grip::Lo ? End::Lo : End::Hi,
-                                     f.draggedTo(mouse.y - grab_.off)));
+                                     f.draggedTo(mouse.y - grab_.off), f.axis.perPixel()));
         case Grip::Band:
             context.choices.layer = grab_.layer;
             if (moved.y < 1) return;
             return setRanges(
                 withMoved(grab_.ranges, grab_.range,
-                          roundedTo(f.axis.valueAt(mouse.y) - grab_.valueAt, f.axis.perPixel())));
+                          roundedTo(f.axis.valueAt(mouse.y) - grab_.valueAt, f.axis.perPixel()),
+                          f.axis.perPixel()));
         case Grip::Undecided:
             if (std::max(moved.x, moved.y) < 4 * f.s) return;
             grab_.grip = moved.y >= moved.x ? Grip::Band : Grip::Scrub;

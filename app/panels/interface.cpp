@@ -120,10 +120,8 @@ void Interface::drawPicture(PanelContext& context, const Surroundings& around) {
     if (!shown && !context.exploration.opening()) drawStartScreen(context, around.offers);
     const float s = around.theme.scale;
     float top = context.layout.picture.min.y + 14 * s;
-    if (shown && !around.offers.autosave.empty()) {
-        drawRecoveryOffer(context, around.offers.autosave);
-        top += 40 * s;
-    }
+    if (shown && !around.offers.autosave.empty())
+        top = drawRecoveryOffer(context, around.offers.autosave) + 8 * s;
     drawPictureOverlay(context, top, around.exporting);
     const Rect& picture = context.layout.picture;
     messages_.draw(

@@ -4,18 +4,13 @@
 
 #include "app/choices/choice_text.h"
 #include "app/choices/edits.h"
+#include "app/panels/counts_text.h"
 #include "app/panels/layer_style.h"
 #include "app/panels/number_field.h"
 #include "app/picture/range_label.h"
 
 namespace app::panels {
 namespace {
-
-std::string percent(std::uint64_t count, std::uint64_t of) {
-    if (of == 0) return "";
-    const double share = 100 * static_cast<double>(count) / static_cast<double>(of);
-    return fmt::format("{:.{}f} %", share, share >= 10 ? 1 : share >= 0.1 ? 2 : 4);
-}
 
 std::string sweptText(const PanelContext& context) {
     const auto& sweep = context.exploration.playback().sweep;
@@ -33,7 +28,7 @@ void amountText(PanelContext& context, const Rect& at, std::size_t row) {
     const std::uint64_t count = counts->layers[row];
     const std::string amount =
         withCommas(count) + (counts->inClipBox ? " in the clip box" : " points");
-    const std::string share = "  ·  " + percent(count, counts->total);
+    const std::string share = "  ·  " + percentText(count, counts->total);
     ImFont& font = *context.theme.small;
     const bool fits = widthOf(font, amount + share) <= at.size().x;
     text(context.theme, {at.min.x, at.centre().y}, fits ? amount + share : amount, kDim, 0, &font);

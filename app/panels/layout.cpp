@@ -11,8 +11,10 @@ Rect box(float x0, float y0, float x1, float y1) { return {{x0, y0}, {x1, y1}}; 
 Rect crisp(const Rect& r) { return {glm::floor(r.min), glm::floor(r.max)}; }
 
 constexpr float kStatusLine = 18, kStatusRoom = 8;
-// What the figures say is about 1000 long in one line, 600 in two.
-std::size_t statusLinesFor(float width) { return width >= 1000 ? 1 : width >= 600 ? 2 : 3; }
+// What the figures say is about 1000 long in one line, 700 in two, 600 in three.
+std::size_t statusLinesFor(float width) {
+    return width >= 1000 ? 1 : width >= 700 ? 2 : width >= 600 ? 3 : 4;
+}
 
 }  // namespace
 
@@ -154,9 +156,11 @@ HelpLayout helpLayout(const Rect& picture, float scale, std::size_t lines, std::
     return {{glm::floor(picture.centre() - half), glm::floor(picture.centre() + half)}, s};
 }
 
-RecoveryOfferLayout recoveryOfferLayout(const Rect& picture, float scale) {
+RecoveryOfferLayout recoveryOfferLayout(const Rect& picture, float scale, glm::vec2 legend) {
     const float s = scale, half = std::min(170 * s, 0.5f * picture.size().x - 8 * s);
-    const float x = picture.centre().x, y = picture.min.y + 14 * s, right = x + half;
+    const float x = picture.centre().x, right = x + half;
+    const bool isBeside = x - half >= picture.min.x + legend.x;
+    const float y = picture.min.y + (isBeside ? 14 * s : std::max(14 * s, legend.y + 8 * s));
     return {.whole = crisp(box(x - half, y, right, y + 32 * s)),
             .goOn = crisp(box(right - 106 * s, y + 4 * s, right - 36 * s, y + 28 * s)),
             .discard = crisp(box(right - 32 * s, y + 4 * s, right - 8 * s, y + 28 * s))};

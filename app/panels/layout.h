@@ -101,11 +101,13 @@ struct HelpLayout {
 constexpr float kHelpLine = 23, kHelpGroup = 14;
 HelpLayout helpLayout(const Rect& picture, float scale, std::size_t lines, std::size_t groups);
 
-// Over the picture: a session that broke off, while other data are shown.
+// Over the picture: a session that broke off, while other data are shown. Where it has no room
+// beside the picture's legend, which takes so much of its upper left corner, it lies below that.
 struct RecoveryOfferLayout {
     Rect whole, goOn, discard;
 };
-RecoveryOfferLayout recoveryOfferLayout(const Rect& picture, float scale);
+RecoveryOfferLayout recoveryOfferLayout(const Rect& picture, float scale,
+                                        glm::vec2 legend = glm::vec2(0));
 
 // The ends of an axis that shows all from lo to hi, with a little room; both finite, lo <= hi.
 std::pair<double, double> withRoom(double lo, double hi);

@@ -29,6 +29,20 @@ void ruler(PanelContext& context, Form& form, const Reading& a, const Reading& b
 
 }  // namespace
 
+std::string timesNote(const Reading& first, const Reading* second, const Shown& shown) {
+    const timeseries::TimeAxis& time = *shown.dataset.variable.time;
+    const Reading& told = second != nullptr ? *second : first;
+    std::string note;
+    if (told.step != shown.step)
+        note =
+            fmt::format("Read at that time, not at the picture's, {}. A double click reads anew.",
+                        timeText(time, shown.step));
+    if (first.step != told.step)
+        note += fmt::format("{}The ruler's first point was read at another time, {}.",
+                            note.empty() ? "" : " ", timeText(time, first.step));
+    return note;
+}
+
 void ProbePage::take(const std::optional<Reading>& reading, bool isRuler) {
     if (isRuler && first_) {
         second_ = reading;
@@ -56,11 +70,9 @@ void ProbePage::draw(PanelContext& context, const Rect& at) {
         line(context.theme, form, grid.axes()[i].name, positionText(r, *shown, i));
     if (!r.cell.empty()) line(context.theme, form, "Cell", r.cell);
     line(context.theme, form, "Time", timeText(*shown->dataset.variable.time, r.step));
-    if (r.step != shown->step)
-        form.note(
-            fmt::format("Read at that time, not at the picture's, {}. A double click reads "
-                        "anew.",
-                        timeText(*shown->dataset.variable.time, shown->step)));
+    if (const std::string note = timesNote(*first_, second_ ? &*second_ : nullptr, *shown);
+        !note.empty())
+        form.note(note);
     if (second_) ruler(context, form, *first_, *second_, grid);
     if (textButton(context.theme, "Clear", part(form.row(), 0, 3, context.theme.scale), "Clear"))
         clear();

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "app/panels/form.h"
 
 namespace app::panels {
+
+// What is to be said of the times at which points were read, where these are not all the picture's;
+// else "". `second`: another end of the ruler, whose time is told, or null.
+std::string timesNote(const Reading& first, const Reading* second, const Shown& shown);
 
 class ProbePage {
  public:

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/choices/edits.h"
+#include "app/choices/idle_choices.h"
 #include "app/choices/view_edits.h"
 #include "render/annotate/ticks.h"
 
@@ -72,6 +73,17 @@ void lampRows(PanelContext& context, Form& form) {
     angleSlider(context, form, "Around", -180, 360, &LampChoice::azimuthDegrees);
     angleSlider(context, form, "Above", -90, 180, &LampChoice::elevationDegrees);
     form.note("The lamp stands still: what is turned shows it another side.");
+}
+
+void lightRows(PanelContext& context, Form& form) {
+    constexpr std::array kLights = {"Off", "Soft", "Full"};
+    const Explorer& e = context.exploration.explorer();
+    if (const std::string_view why = whyUnlit(e); !why.empty())
+        return form.note(fmt::format("Cells are not lit: {}.", why));
+    if (const auto light = segmented(context.theme, "light", form.row("Light"), kLights,
+                                     static_cast<std::size_t>(e.light)))
+        edit(context, {}, [&](Explorer& next) { next.light = static_cast<render::Light>(*light); });
+    if (e.light != render::Light::Off) lampRows(context, form);
 }
 
 void budget(PanelContext& context, Form& form) {
@@ -173,7 +185,6 @@ void drawQualityPage(PanelContext& context, const Rect& at) {
     if (const auto model = segmented(context.theme, "model", form.row("Draw"), kModels,
                                      static_cast<std::size_t>(e.model)))
         edit(context, {}, [&](Explorer& next) { next.model = static_cast<Model>(*model); });
-    constexpr std::array kLights = {"Off", "Soft", "Full"};
     constexpr std::array kPers = {"Length", "Crossing"};
     const std::string_view whyNot = context.exploration.shown()->sorted->whyNoCells();
     const bool byCells = modelOf(e) == Model::Cells && whyNot.empty();
@@ -181,11 +192,7 @@ void drawQualityPage(PanelContext& context, const Rect& at) {
         form.note(fmt::format("Points are drawn: {}.", whyNot));
     if (byCells) {
         form.note("Between points, too: a thin range is a closed shell.");
-        if (const auto light = segmented(context.theme, "light", form.row("Light"), kLights,
-                                         static_cast<std::size_t>(e.light)))
-            edit(context, {},
-                 [&](Explorer& next) { next.light = static_cast<render::Light>(*light); });
-        if (e.light != render::Light::Off) lampRows(context, form);
+        lightRows(context, form);
         if (const auto per = segmented(context.theme, "per", form.row("Opacity per"), kPers,
                                        static_cast<std::size_t>(e.opacityPer)))
             edit(context, {},

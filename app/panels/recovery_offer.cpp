@@ -1,13 +1,15 @@
 #include "app/panels/recovery_offer.h"
 
+#include "app/choices/camera.h"
 #include "app/panels/widgets.h"
 
 namespace app::panels {
 
-void drawRecoveryOffer(PanelContext& context, const std::filesystem::path& session) {
+float drawRecoveryOffer(PanelContext& context, const std::filesystem::path& session) {
     const Theme& theme = context.theme;
     const float s = theme.scale;
-    const RecoveryOfferLayout at = recoveryOfferLayout(context.layout.picture, s);
+    const RecoveryOfferLayout at = recoveryOfferLayout(
+        context.layout.picture, s, glm::vec2(legendOf(context.exploration.explorer())));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(at.whole.min), im(at.whole.max), faded(kField, 0.95f), 16 * s);
     list.AddRect(im(at.whole.min), im(at.whole.max), kLine, 16 * s);
@@ -17,6 +19,7 @@ void drawRecoveryOffer(PanelContext& context, const std::filesystem::path& sessi
     if (textButton(theme, "##goOn", at.goOn, "Go on", true)) context.requests.open = {session};
     if (iconButton(theme, "##discardLeft", at.discard, Icon::Remove, "Discard it"))
         context.requests.discardLeft = true;
+    return at.whole.max.y;
 }
 
 }  // namespace app::panels

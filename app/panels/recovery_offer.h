@@ -5,7 +5,7 @@
 
 namespace app::panels {
 
-// `session`: its file. Asks to open or to discard it.
-void drawRecoveryOffer(PanelContext& context, const std::filesystem::path& session);
+// `session`: its file. Asks to open or to discard it. Returns where it ends, above what follows.
+float drawRecoveryOffer(PanelContext& context, const std::filesystem::path& session);
 
 }  // namespace app::panels

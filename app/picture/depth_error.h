@@ -72,8 +72,8 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
 // What a window draws while the picture moves and when it rests. Cells only where they are made.
 std::vector<Rung> rungsOf(const Explorer& explorer, const timeseries::SortedStep& step);
 
-// What a picture file has the whole of it under, as a number; and, where it is that of another
-// picture of the same series, which stands for all of them, that one's name.
+// What a picture file has the whole of it under, as a number (or "inf"); and, where it is that of
+// another picture of the same series, which stands for all of them, that one's name.
 inline constexpr const char* kErrorKey = "isochronOpticalDepthError";
 inline constexpr const char* kErrorOfKey = "isochronOpticalDepthErrorOf";
 

@@ -29,8 +29,8 @@ std::string rungText(const Rung& rung) {
 }
 
 std::string shareText(double error, Bound bound) {
-    if (!std::isfinite(error)) return "not known";  // beside a truth that is nothing
-    constexpr double kMostTold = 10;                // beside a truth that is nearly nothing
+    if (std::isnan(error)) return "not known";
+    constexpr double kMostTold = 10;  // beside a truth that is nothing, or nearly so
     if (error > kMostTold) return "above 1000 %";
     const double percent = 100 * error;
     if (bound == Bound::Least)
@@ -40,7 +40,7 @@ std::string shareText(double error, Bound bound) {
 }
 
 std::string depthErrorText(double error, Bound bound) {
-    if (!std::isfinite(error)) return "";
+    if (std::isnan(error)) return "";  // nothing is drawn, and nothing is there
     const std::string share = shareText(error, bound);
     const bool isAbout = !share.starts_with("below") && !share.starts_with("above");
     return (isAbout ? "error about " : "error ") + share;

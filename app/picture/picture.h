@@ -44,6 +44,8 @@ render::Scene makeScene(const Explorer& explorer, const timeseries::SortedStep& 
 // What is said of it. With a clip box every selected point is looked at, for the counts.
 render::Legend makeLegend(const Explorer& explorer, const timeseries::Variable& variable,
                           std::size_t stepIndex, const render::Scene& scene, std::int64_t tick = 0);
+// "nothing is drawn: every layer is hidden"; "" where some layer is seen.
+std::string whyNothing(const Explorer& explorer);
 // Whether the picture is to say that its colours are mixed (render/frame/mean_depth.h), and how it
 // does. Apart from the legend, for it depends on the view and takes milliseconds.
 bool isMixed(const Explorer& explorer, const render::Scene& scene);

@@ -154,6 +154,12 @@ bool isOfCells(const std::string& note) {
     return note == kInterpolated || note.ends_with(kByPointsAlone) || note.ends_with(kInfinite);
 }
 
+std::string whyNothing(const Explorer& e) {
+    if (std::ranges::any_of(e.layers, &LayerChoice::visible)) return "";
+    return e.layers.empty() ? "nothing is drawn: there is no layer"
+                            : "nothing is drawn: every layer is hidden";
+}
+
 render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variable,
                           std::size_t stepIndex, const render::Scene& scene, std::int64_t tick) {
     render::Legend legend;
@@ -190,9 +196,7 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
         legend.emptiness = fmt::format("all {} points of this step are missing",
                                        withCommas(scene.step.statistics().missing));
     legend.notes = variable.notes;
-    if (legend.layers.empty())
-        legend.notes.push_back(e.layers.empty() ? "nothing is drawn: there is no layer"
-                                                : "nothing is drawn: every layer is hidden");
+    if (std::string why = whyNothing(e); !why.empty()) legend.notes.push_back(std::move(why));
     if (const std::string stretch = render::stretchText(scene.step.grid(), scene.placed);
         !stretch.empty())
         legend.notes.push_back(stretch);

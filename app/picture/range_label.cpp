@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -28,6 +29,7 @@ constexpr double kLeastResolution = std::numeric_limits<double>::min();
 struct BoundText {
     std::string text;
     bool isRounded = false;
+    bool isNoShorter = false;  // rounded, it would be as long: it is exact
 };
 BoundText boundText(const timeseries::Number& number, int digits) {
     constexpr double kPlain = 1e9;  // whole numbers below have no exponent
@@ -38,25 +40,62 @@ BoundText boundText(const timeseries::Number& number, int digits) {
     if (isWhole && std::abs(value) < kPlain) return {fmt::format("{:.0f}", value + 0.0)};
     std::string few = fmt::format("{:.{}g}", value, digits);
     const bool isRounded = timeseries::compare(std::strtod(few.c_str(), nullptr), number) != 0;
-    if (few.size() >= exact.size() || (isWhole && isRounded)) return {exact};
+    if (few.size() >= exact.size() || (isWhole && isRounded)) return {exact, false, isRounded};
     return {few, isRounded};
 }
 
-// As few digits (at least seven) as tell all bounds apart that differ.
+constexpr int kExact = 17;
+
+// Where the first digit of a number stands; none of those that have none.
+std::optional<int> firstPlace(const timeseries::Number& number) {
+    const double value = std::abs(timeseries::toDouble(number));
+    if (!(value > 0 && std::isfinite(value))) return std::nullopt;
+    return static_cast<int>(std::floor(std::log10(value)));
+}
+
+struct EndTexts {
+    BoundText lo, hi;
+};
+// Ends of one size are told to the same place, the last of so many digits of the larger one; an end
+// that is much smaller has as many of its own.
+EndTexts endTexts(const Range& range, int digits) {
+    const timeseries::Number &lo = range.lo.value, &hi = range.hi.value;
+    const auto loPlace = firstPlace(lo), hiPlace = firstPlace(hi);
+    if (!loPlace || !hiPlace || std::abs(*loPlace - *hiPlace) > 1)
+        return {boundText(lo, digits), boundText(hi, digits)};
+    const int larger = std::max(*loPlace, *hiPlace);
+    const EndTexts texts{boundText(lo, digits - larger + *loPlace),
+                         boundText(hi, digits - larger + *hiPlace)};
+    if (!texts.lo.isNoShorter && !texts.hi.isNoShorter) return texts;
+    return {boundText(lo, kExact), boundText(hi, kExact)};
+}
+
+// Whether the range that is told is as wide as the range, or nearly so.
+bool isWidthTold(const Range& range, const EndTexts& texts) {
+    constexpr double kNearly = 0.05;
+    const double width =
+        timeseries::toDouble(range.hi.value) - timeseries::toDouble(range.lo.value);
+    if ((!texts.lo.isRounded && !texts.hi.isRounded) || std::isinf(width)) return true;
+    const double told =
+        std::strtod(texts.hi.text.c_str(), nullptr) - std::strtod(texts.lo.text.c_str(), nullptr);
+    return std::abs(told - width) <= kNearly * width;
+}
+
+// As few digits (at least seven) as tell all bounds apart that differ, and how wide ranges are.
 int digitsOf(const RangeSet& ranges) {
-    constexpr int kFew = 7, kExact = 17;
-    std::vector<timeseries::Number> bounds;
-    for (const Range& range : ranges.ranges()) {
-        bounds.push_back(range.lo.value);
-        bounds.push_back(range.hi.value);
-    }
+    constexpr int kFew = 7;
     for (int digits = kFew; digits < kExact; ++digits) {
         std::map<std::string, std::string> exact;  // of each rounded text
-        const bool apart = std::ranges::all_of(bounds, [&](const timeseries::Number& bound) {
-            const std::string text = timeseries::toText(bound);
-            return exact.emplace(boundText(bound, digits).text, text).first->second == text;
-        });
-        if (apart) return digits;
+        const auto isTold = [&](const timeseries::Number& bound, const BoundText& text) {
+            const std::string whole = timeseries::toText(bound);
+            return exact.emplace(text.text, whole).first->second == whole;
+        };
+        if (std::ranges::all_of(ranges.ranges(), [&](const Range& range) {
+                const EndTexts texts = endTexts(range, digits);
+                return isTold(range.lo.value, texts.lo) && isTold(range.hi.value, texts.hi) &&
+                       isWidthTold(range, texts);
+            }))
+            return digits;
     }
     return kExact;
 }
@@ -71,12 +110,10 @@ std::string rangeLabel(const RangeSet& ranges, const std::string& units) {
             return timeseries::toDouble(b.value) == end && !b.open;
         };
         const bool down = isUnbounded(r.lo, -kInfinity), up = isUnbounded(r.hi, kInfinity);
-        const auto shown = [&](const timeseries::Number& bound) {
-            const BoundText number = boundText(bound, digits);
-            rounded = rounded || number.isRounded;
-            return render::withMinusSigns(number.text);
-        };
-        const std::string lo = shown(r.lo.value), hi = shown(r.hi.value);
+        const EndTexts ends = endTexts(r, digits);
+        rounded = rounded || ends.lo.isRounded || ends.hi.isRounded;
+        const std::string lo = render::withMinusSigns(ends.lo.text),
+                          hi = render::withMinusSigns(ends.hi.text);
         if (!text.empty()) text += ", ";
         if (down && up) return "all values";
         if (lo == hi)

@@ -24,14 +24,15 @@ DrawnStill drawStill(const Still& still, render::FrameRenderer& renderer, render
     const auto views = eyes(e, still.placed.outline());
     Picture picture =
         makePicture(e, still.variable, still.stepIndex, still.step, still.placed, still.tick);
-    DrawnStill drawn{file, e.stereo.mode, {}, {}, isMixed(e, picture.scene), 0};
+    DrawnStill drawn{file, e.stereo.mode, {}, {}, isMixed(e, picture.scene), 0, false};
     for (const render::Layer& layer : picture.scene.layers)
         drawn.points += render::pointCount(layer);
     if (drawn.mixed) picture.legend.notes.emplace_back(kMixedColors);
     drawn.eyes = renderer.render(
         {picture.scene, still.step.grid(), asDrawn(e, std::move(picture.legend)), kBackground},
         onGpu, views, extras);
-    if (still.error && std::isfinite(*still.error)) {
+    drawn.byGl = renderer.splatters().sumsByGl(picture.scene);
+    if (still.error && !std::isnan(*still.error)) {
         drawn.metadata[kErrorKey] = fmt::format("{:.3g}", *still.error);
         if (!still.errorOf.empty()) drawn.metadata[kErrorOfKey] = still.errorOf;
     }

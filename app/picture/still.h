@@ -40,6 +40,7 @@ struct DrawnStill {
     render::Metadata metadata;
     bool mixed;            // whether the picture says that its colours are
     std::uint64_t points;  // selected by its layers; the same one twice where two have it
+    bool byGl;             // who summed it: else the program
 };
 
 // `onGpu` holds the step. Throws std::runtime_error on a GL error.

@@ -57,15 +57,16 @@ void drawMap(AxesMeshes& meshes, std::span<const PixelRect> texts, float width,
 }  // namespace
 
 AxesMeshes axesMeshes(const timeseries::Grid& grid, const PlacedPoints& placed,
-                      const View& viewOfWorld, const glm::dvec3& midEyeInWorld, const Font& font,
+                      const View& viewOfWorld, const Middle& middleOfWorld, const Font& font,
                       const FlatMesh& legend, const glm::dvec3& background) {
     // In axis coordinates the box stands upright, however oblique it is in the world.
     const View view = placed.inAxes(viewOfWorld);
-    const glm::dvec3 midEye = glm::inverse(placed.worldFromAxes()) * midEyeInWorld;
-    if (placed.globe()) return globeMeshes(placed, view, midEye, font, legend, background);
+    const glm::dvec3 midEye = glm::inverse(placed.worldFromAxes()) * middleOfWorld.eye;
+    const Middle middle{midEye, middleOfWorld.lean};
+    if (placed.globe()) return globeMeshes(placed, view, middle, font, legend, background);
     const glm::dvec3 half = placed.boxHalf();
     const FontStyle style = labelStyle(view.size);
-    const Sights sights(view, midEye, half);
+    const Sights sights(view, middle, half);
     const Screen& screen = sights.eye();
     const auto axes = axisLabels(grid, placed, sights, midEye, view.size, font, style,
                                  coveredByLegend(legend, view.size));

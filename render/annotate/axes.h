@@ -1,6 +1,7 @@
 // The opaque reference scene: the points' box and its axes with ticks, numbers and units.
 #pragma once
 
+#include "render/annotate/box_edges.h"
 #include "render/annotate/flat_mesh.h"
 #include "render/points/placed_points.h"
 #include "render/points/view.h"
@@ -25,10 +26,10 @@ struct AxesMeshes {
     FlatMesh labels;
 };
 // Labels lie inside the picture, apart from each other and from the ground of `legend`: render/
-// axis_labels.h has the rules. All is chosen for the middle, `midEye` (world), so that both eyes
-// have the same labels. REQUIRES: `font` has labelStyle(view.size).
+// axis_labels.h has the rules. All is chosen for the middle (world), so that both eyes have the
+// same labels. REQUIRES: `font` has labelStyle(view.size).
 AxesMeshes axesMeshes(const timeseries::Grid& grid, const PlacedPoints& placed, const View& view,
-                      const glm::dvec3& midEye, const Font& font, const FlatMesh& legend = {},
+                      const Middle& middle, const Font& font, const FlatMesh& legend = {},
                       const glm::dvec3& background = glm::dvec3(0));
 
 }  // namespace render

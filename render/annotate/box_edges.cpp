@@ -63,12 +63,13 @@ std::optional<glm::dvec2> Screen::visible(const glm::dvec3& a, const glm::dvec3&
     return part;
 }
 
-View middle(const View& view, const glm::dvec3& midEye) {
-    View mid = view;
-    mid.clipFromView[2][0] = mid.clipFromView[2][1] = 0;
-    const glm::dmat3 rotation(view.viewFromWorld);
-    mid.viewFromWorld[3] = glm::dvec4(-(rotation * midEye), 1);
-    return mid;
+View viewFrom(const Middle& middle, const View& eye) {
+    View view = eye;
+    view.clipFromView[2][0] = middle.lean.x;
+    view.clipFromView[2][1] = middle.lean.y;
+    const glm::dmat3 rotation(eye.viewFromWorld);
+    view.viewFromWorld[3] = glm::dvec4(-(rotation * middle.eye), 1);
+    return view;
 }
 
 }  // namespace render

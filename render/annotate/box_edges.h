@@ -47,7 +47,13 @@ class Screen {
     glm::dvec2 size_;
 };
 
-// The view from the point midway between the eyes, through the middle of the picture.
-View middle(const View& view, const glm::dvec3& midEye);
+// The point midway between a picture's eyes, and how far off the view axis their pictures lie on
+// the average: as clipFromView[2] has it. That is a shift, which both have, without parallax.
+struct Middle {
+    glm::dvec3 eye;
+    glm::dvec2 lean{0};
+};
+// What one of the eyes would see from there.
+View viewFrom(const Middle& middle, const View& eye);
 
 }  // namespace render

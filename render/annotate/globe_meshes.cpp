@@ -204,13 +204,13 @@ std::string longitudeText(double degrees) {
     return std::abs(turned) == 180 ? "180°" : degreesText(turned, " E", " W");
 }
 
-AxesMeshes globeMeshes(const PlacedPoints& placed, const View& view, const glm::dvec3& midEye,
+AxesMeshes globeMeshes(const PlacedPoints& placed, const View& view, const Middle& middle,
                        const Font& font, const FlatMesh& legend, const glm::dvec3& background) {
     const FontStyle style = labelStyle(view.size);
-    const Sights sights(view, midEye, placed.boxHalf());
+    const Sights sights(view, middle, placed.boxHalf());
     const Screen& screen = sights.eye();
     const Globe& globe = *placed.globe();
-    const Surface surface(placed, midEye);
+    const Surface surface(placed, middle.eye);
     const float width = lineWidth(style);
     AxesMeshes meshes;
 

@@ -6,8 +6,8 @@
 
 namespace render {
 
-// As axesMeshes(); view and eye in axis coordinates. REQUIRES: placed.globe().
-AxesMeshes globeMeshes(const PlacedPoints& placed, const View& view, const glm::dvec3& midEye,
+// As axesMeshes(); view and middle in axis coordinates. REQUIRES: placed.globe().
+AxesMeshes globeMeshes(const PlacedPoints& placed, const View& view, const Middle& middle,
                        const Font& font, const FlatMesh& legend, const glm::dvec3& background);
 
 // "30° N", "0°"; "120° W", "180°".

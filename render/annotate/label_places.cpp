@@ -58,8 +58,8 @@ double distance(const PixelRect& rect, const glm::dvec2& a, const glm::dvec2& b)
     return least;
 }
 
-Sights::Sights(const View& view, const glm::dvec3& midEye, const glm::dvec3& boxHalf)
-    : eye_(view), middle_(render::middle(view, midEye)), count_(1) {
+Sights::Sights(const View& view, const Middle& middle, const glm::dvec3& boxHalf)
+    : eye_(view), middle_(viewFrom(middle, view)), count_(1) {
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 at =
             boxHalf * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);

@@ -29,7 +29,7 @@ double distance(const PixelRect& rect, const glm::dvec2& a, const glm::dvec2& b)
 // are one.
 class Sights {
  public:
-    Sights(const View& view, const glm::dvec3& midEye, const glm::dvec3& boxHalf);
+    Sights(const View& view, const Middle& middle, const glm::dvec3& boxHalf);
 
     const Screen& eye() const { return eye_; }
     const Screen& middle() const { return middle_; }

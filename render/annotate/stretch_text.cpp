@@ -50,8 +50,9 @@ std::string stretchText(const Grid& grid, const PlacedPoints& placed) {
         const Axis &axis = grid.axes()[a], &first = grid.axes()[0];
         if (axis.coordinates.size() == 1) continue;
         if (comparableUnit(axis) == comparableUnit(first)) {
-            if (std::abs(ratio - 1) < 1e-9) continue;
-            text += fmt::format("{}{} \u00d7 {:.3g}", text.empty() ? "" : ", ", axis.name, ratio);
+            const std::string times = fmt::format("{:.3g}", ratio);
+            if (times == "1") continue;  // less than is told
+            text += fmt::format("{}{} \u00d7 {}", text.empty() ? "" : ", ", axis.name, times);
         } else {
             // So many of its own units are drawn as long as one unit of the first axis.
             text += fmt::format("{}{} drawn as 1{}", text.empty() ? "" : ", ",

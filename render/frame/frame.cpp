@@ -25,6 +25,12 @@ glm::dvec3 midEye(std::span<const View> eyes) {
     return sum / static_cast<double>(eyes.size());
 }
 
+Middle middleOf(std::span<const View> eyes) {
+    glm::dvec2 sum(0);
+    for (const View& eye : eyes) sum += glm::dvec2(eye.clipFromView[2]);
+    return {midEye(eyes), sum / static_cast<double>(eyes.size())};
+}
+
 FrameRenderer::FrameRenderer(SplatterChoice splatter, LightAs as)
     : styles_(stylesFor({64, 64})), font_(styles_), splatters_(splatter), as_(as) {
     inMemory_.setFont(font_);
@@ -88,7 +94,7 @@ FrameRenderer::Prepared FrameRenderer::prepare(const FrameContent& content, cons
     // The upload of points does it.
     if (&light != &inMemory_ && !splatters_.takesPointsFromGpu(scene))
         splatters_.gl().setLayers(scene, ValueScale::of(scene.layers));
-    return {content, splatters_.prepare(scene, std::move(list), step), midEye(eyes), light, as};
+    return {content, splatters_.prepare(scene, std::move(list), step), middleOf(eyes), light, as};
 }
 
 LightPass& FrameRenderer::lightFor(const FrameContent& content, std::span<const View> eyes) {
@@ -109,7 +115,7 @@ FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View&
     FlatMesh legend = legendMesh(content.legend, font_, eye.size);
     AxesMeshes axes;
     if (content.axes)
-        axes = axesMeshes(content.grid, content.scene.placed, eye, frame.midEye, font_, legend,
+        axes = axesMeshes(content.grid, content.scene.placed, eye, frame.middle, font_, legend,
                           content.background);
     const View planes = content.across > 1 ? coarser(eye, content.across) : eye;
     EyeInWork work{

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "render/annotate/box_edges.h"
 #include "render/frame/gl_light.h"
 #include "render/frame/memory_light.h"
 #include "render/frame/splatters.h"
@@ -44,6 +45,8 @@ struct Extras {
 
 // Where all eyes' draw list is made for.
 glm::dvec3 midEye(std::span<const View> eyes);
+// What their labels are chosen for.
+Middle middleOf(std::span<const View> eyes);
 
 // Needs a current GL context, from construction to destruction, unless its splatter needs none
 // (render/frame/splatters.h) and what it draws has neither placards nor hidden areas.
@@ -66,7 +69,7 @@ class FrameRenderer {
     struct Prepared {
         const FrameContent& content;
         std::unique_ptr<SplatFrame> splats;
-        glm::dvec3 midEye;
+        Middle middle;
         LightPass& light;
         LightAs as;
     };

@@ -9,9 +9,11 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "render/image/image.h"
+#include "timeseries/readers/text/words.h"
 #include "timeseries/series/replaced_file.h"
 
 namespace render {
@@ -20,7 +22,16 @@ namespace {
 
 std::string lastError() { return std::generic_category().message(errno); }
 
+bool lockAlone(int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0; }
+
+bool endsIn(const std::filesystem::path& file, std::string_view ending) {
+    return timeseries::lower(file.extension().string()) == ending;
+}
+
 }  // namespace
+
+bool isPng(const std::filesystem::path& file) { return endsIn(file, ".png"); }
+bool isExr(const std::filesystem::path& file) { return endsIn(file, ".exr"); }
 
 PartialFile::PartialFile(std::filesystem::path destination) : destination_(std::move(destination)) {
     const timeseries::ReplacedFile there(destination_);
@@ -49,7 +60,6 @@ PartialFile::PartialFile(std::filesystem::path destination) : destination_(std::
 // is what a program has left that was ended.
 int PartialFile::openPartial() {
     constexpr int kAttempts = 100;
-    const auto lock = [](int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0; };
     const auto isNamed = [&](int file) {
         struct stat made {
         }, named{};
@@ -59,20 +69,32 @@ int PartialFile::openPartial() {
     for (int n = 0; n < kAttempts; ++n) {
         partial_ = target_;
         partial_ += kSuffix + std::to_string(n);
-        const int left = ::open(partial_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
-        if (left >= 0) {
-            if (lock(left)) ::unlink(partial_.c_str());
-            ::close(left);
-        }
+        removeLeft(partial_);
         const int file = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file < 0 && errno != EEXIST) break;
         if (file < 0) continue;
-        (void)lock(file);  // where the file system knows no locks, nothing is taken for a leftover
+        // Where the file system knows no locks, nothing is taken for a leftover.
+        (void)lockAlone(file);
         if (isNamed(file)) return file;
         ::close(file);  // taken for a leftover before it had its lock
     }
     partial_.clear();
     return -1;
+}
+
+void PartialFile::removeLeft(const std::filesystem::path& partial) {
+    const int left = ::open(partial.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (left < 0) return;
+    if (lockAlone(left)) ::unlink(partial.c_str());
+    ::close(left);
+}
+
+std::filesystem::path PartialFile::destinationOf(const std::filesystem::path& partial) {
+    const std::string ending = partial.extension().string();
+    const std::string_view suffix = kSuffix;
+    const bool isOne = ending.starts_with(suffix) && ending.size() > suffix.size() &&
+                       ending.find_first_not_of("0123456789", suffix.size()) == std::string::npos;
+    return isOne ? std::filesystem::path(partial).replace_extension() : std::filesystem::path();
 }
 
 PartialFile::~PartialFile() {

@@ -25,6 +25,11 @@ class PartialFile {
     std::FILE* stream() { return stream_.get(); }
     void commit();  // once; throws ImageError
 
+    // Of a file beside its destination, what the destination is called; empty where it is none.
+    static std::filesystem::path destinationOf(const std::filesystem::path& partial);
+    // What a program has left that was ended; one that somebody writes stays.
+    static void removeLeft(const std::filesystem::path& partial);
+
  private:
     int openPartial();  // -1: errno tells why not
     struct Close {
@@ -35,6 +40,10 @@ class PartialFile {
     std::unique_ptr<std::FILE, Close> stream_;
     int locked_ = -1;  // the partial file, locked until it has its name
 };
+
+// By how its name ends, in capitals or not.
+bool isPng(const std::filesystem::path& file);
+bool isExr(const std::filesystem::path& file);
 
 // Throws ImageError.
 std::vector<std::byte> readPictureFile(const std::filesystem::path&);

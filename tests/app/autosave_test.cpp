@@ -80,6 +80,17 @@ TEST(Autosave, IsOfferedOnceItsProcessIsGone) {
     EXPECT_EQ(left[0].explorer, exampleAt(folder, 2));
 }
 
+// A name in Latin-1.
+TEST(Autosave, IsOfferedWhateverBytesItsFilesNamesHave) {
+    const auto folder = tests::freshFolder();
+    Explorer e;
+    e.files = {folder / "n\xe9.nc"};
+    inAnotherProcess([&] { Autosave(folder).save(e, {}); });
+    const auto left = leftSessions(folder);
+    ASSERT_EQ(left.size(), 1u);
+    EXPECT_EQ(left[0].explorer, e);
+}
+
 TEST(Autosave, AnotherProcessOfTheSameNumberIsNotMistakenForIt) {
     const auto folder = tests::freshFolder();
     Autosave own(folder);

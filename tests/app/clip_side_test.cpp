@@ -32,18 +32,36 @@ TEST(ClipSide, IsReadAsItIsTyped) {
     // A slice: the plane that is nearest.
     EXPECT_EQ(typed("2.4"), "2:2,min:max,min:max");
     EXPECT_EQ(typed("2.6"), "3:3,min:max,min:max");
-    EXPECT_EQ(typed("99", 1), "min:max,14:14,min:max");
+    EXPECT_EQ(typed("14", 1), "min:max,14:14,min:max");
     // The last plane is not lost to the digits that its end was told with.
     ASSERT_GT(stored.coordinates.back(), 0.3);
     EXPECT_EQ(clipSideText({}, grid, 2), "0:0.3");
     EXPECT_EQ(typed("0.1:0.3", 2), "min:max,min:max,0.1:max");
 }
 
+// 0.1 as a float is a little more than it is told to be.
+TEST(ClipSide, ASliceAtAnEndOfTheAxisIsReadAsItIsShown) {
+    const timeseries::Axis stored = tests::axis(3, 0.1f, 0.1f);
+    const timeseries::Grid grid(std::array{stored, tests::axis(5), tests::axis(5)});
+    ASSERT_GT(stored.coordinates.front(), 0.1);
+    const auto box = withClipSide({}, grid, 0, "0.1");
+    ASSERT_TRUE(box);
+    EXPECT_EQ(box->lo.x, stored.coordinates.front());
+    EXPECT_EQ(box->hi.x, stored.coordinates.front());
+    // With few digits 1234 is 1.23e+03.
+    const timeseries::Grid far(
+        std::array{tests::axis(3, 1234, 100), tests::axis(5), tests::axis(5)});
+    const auto slice = withClipSide({}, far, 0, "1234");
+    EXPECT_EQ(withClipSide(slice, far, 0, clipSideText(slice, far, 0, 3), 3), slice);
+}
+
 TEST(ClipSide, WhatCannotBeIsRefusedInASentence) {
     const timeseries::Grid grid(std::array{tests::axis(5), tests::axis(5), tests::axis(5)});
     for (const auto& [text, says] :
          {std::pair("abc", "abc"), std::pair("1:2,3:4", "one range"), std::pair("[1,2)", "closed"),
-          std::pair("1.2:1.8", "x, from 0 to 4"), std::pair("5:9", "x, from 0 to 4")}) {
+          std::pair("1.2:1.8", "x, from 0 to 4"), std::pair("5:9", "x, from 0 to 4"),
+          std::pair("5", "x, from 0 to 4 m, has none from 5 to 5"),
+          std::pair("-0.3", "x, from 0 to 4")}) {
         try {
             withClipSide({}, grid, 0, text);
             ADD_FAILURE() << text;

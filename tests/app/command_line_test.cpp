@@ -146,6 +146,24 @@ TEST_F(CallOfProgram, IsItsNameWherePathHasItAndElseItsPath) {
     EXPECT_EQ(callOfProgram(), program_.string());
 }
 
+// As Linux tells it: with a word behind the name that is no part of it.
+TEST_F(CallOfProgram, IsItsPathAlsoWhereItsFileIsGoneOrAnotherHasItsPlace) {
+    const fs::path folder = tests::freshFolder();
+    const fs::path program = folder / "isochron", running = folder / "exe";
+    const tests::Variable nowhere("PATH", std::nullopt);
+    fs::create_symlink(program.string() + " (deleted)", running);
+    EXPECT_EQ(callOfProgram(running), program.string());
+    tests::writeBytes(program, "built anew");
+    EXPECT_EQ(callOfProgram(running), program.string());
+    // A file may be named so.
+    const fs::path named = program.string() + " (deleted)";
+    tests::writeBytes(named, "");
+    EXPECT_EQ(callOfProgram(running), "'" + named.string() + "'");
+    fs::remove(named);
+    const tests::Variable found("PATH", folder.string());
+    EXPECT_EQ(callOfProgram(running), "isochron");
+}
+
 TEST(ShellText, TheShellReadsEveryArgumentAsItIs) {
     std::mt19937 random(15);
     const std::string special = " '\"\\$`!*?[](){}<>|&;#~\n\t=%";

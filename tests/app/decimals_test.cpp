@@ -54,6 +54,59 @@ TEST(Decimals, RoundingTellsNeighboursApartWithTheFewestDigits) {
     }
 }
 
+TEST(Decimals, TheNextRoundedValueIsBesideAtMostAUnitAway) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> unit(-1, 1), log(-8, 8);
+    for (int i = 0; i < 3000; ++i) {
+        const double resolution = std::pow(10, log(random));
+        double value = unit(random) * resolution * 1e4;
+        if (i % 2 == 0) value = roundedTo(value, resolution);
+        const double below = roundedBelow(value, resolution),
+                     above = roundedAbove(value, resolution);
+        SCOPED_TRACE(fmt::format("{} to {}", value, resolution));
+        EXPECT_LT(below, value);
+        EXPECT_GT(above, value);
+        for (const double next : {below, above}) {
+            EXPECT_EQ(next, roundedTo(next, resolution));
+            EXPECT_LE(std::abs(next - value), 1.0001 * resolution);
+        }
+    }
+    EXPECT_EQ(roundedBelow(30, 0.27), 29.9);
+    EXPECT_EQ(roundedBelow(30.04, 0.27), 30);
+    EXPECT_EQ(roundedAbove(30, 30), 40);
+    EXPECT_FALSE(std::signbit(roundedAbove(-0.05, 0.1)));
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const double resolution : {0.0, 1e-30, infinity})
+        EXPECT_EQ(roundedBelow(30, resolution), std::nextafter(30, 0)) << resolution;
+    EXPECT_EQ(roundedBelow(infinity, 1), std::numeric_limits<double>::max());
+    EXPECT_EQ(roundedAbove(infinity, 1), infinity);
+}
+
+// Against sums of whole numbers.
+TEST(Decimals, AddUpAsDigitsDo) {
+    EXPECT_EQ(decimalSum(0.1, 0.2), 0.3);
+    EXPECT_EQ(decimalSum(20.1, -10), 10.1);
+    EXPECT_EQ(decimalSum(1e20, 3e-7), 1e20);
+    EXPECT_EQ(decimalSum(1e22, 1e22), 2e22);
+    EXPECT_FALSE(std::signbit(decimalSum(0.1, -0.1)));
+    const double most = std::numeric_limits<double>::max();
+    EXPECT_EQ(decimalSum(most, most), std::numeric_limits<double>::infinity());
+    std::mt19937 random(10);
+    for (int i = 0; i < 3000; ++i) {
+        const int a = static_cast<int>(random() % 2'000'000) - 1'000'000,
+                  b = static_cast<int>(random() % 2'000'000) - 1'000'000,
+                  decimals = static_cast<int>(random() % 30) - 10;
+        const auto scaled = [&](int n) { return std::stod(fmt::format("{}e{}", n, -decimals)); };
+        EXPECT_EQ(decimalSum(scaled(a), scaled(b)), scaled(a + b))
+            << a << ' ' << b << ' ' << decimals;
+    }
+}
+
+TEST(Decimals, ZeroHasNoSign) {
+    EXPECT_FALSE(std::signbit(roundedTo(-0.04, 0.1)));
+    EXPECT_FALSE(std::signbit(toDecimals(-4, -1)));
+}
+
 TEST(Decimals, WhatCannotBeRoundedStays) {
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_EQ(roundedTo(infinity, 1), infinity);

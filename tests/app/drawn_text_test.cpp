@@ -25,5 +25,14 @@ TEST(DrawnText, CountsCells) {
     EXPECT_EQ(cellsText(1, 1), "1 cell and 1 point drawn");
 }
 
+TEST(PercentText, TellsNoneFromFew) {
+    EXPECT_EQ(percentText(0, 2000), "0 %");
+    EXPECT_EQ(percentText(1, 2'000'000'000), "below 0.0001 %");
+    EXPECT_EQ(percentText(1, 100'000), "0.0010 %");
+    EXPECT_EQ(percentText(1, 400), "0.25 %");
+    EXPECT_EQ(percentText(246, 2000), "12.3 %");
+    EXPECT_EQ(percentText(0, 0), "");
+}
+
 }  // namespace
 }  // namespace app::panels

@@ -109,6 +109,52 @@ TEST_F(RangeEdits, AnEndStopsAtTheOtherAndJustShortOfANeighbour) {
     EXPECT_EQ(withEnd(RangeSet::parse("1:3"), 0, End::Hi, kInfinity), RangeSet::parse("1:max"));
 }
 
+// Of 0.27 a pixel tenths are told: what stops short stops at one.
+TEST_F(RangeEdits, AnEndStopsShortOfANeighbourAtTheHandsDigits) {
+    const RangeSet set = RangeSet::parse("10:20,30:50,[60,70)");
+    const auto dragged = [&](std::size_t range, End end, double to) {
+        return withEnd(set, range, end, to, 0.27).text();
+    };
+    EXPECT_EQ(dragged(0, End::Hi, 40), "10:29.9,30:50,[60,70)");
+    EXPECT_EQ(dragged(1, End::Lo, -3), "10:20,20.1:50,[60,70)");
+    EXPECT_EQ(dragged(1, End::Hi, kInfinity), "10:20,30:59.9,[60,70)");
+    EXPECT_EQ(dragged(2, End::Lo, 99), "10:20,30:50,[69.9,70)");
+    EXPECT_EQ(withMoved(set, 0, 13, 0.27).text(), "19.9:29.9,30:50,[60,70)");
+    EXPECT_EQ(withMoved(set, 1, -13, 0.27).text(), "10:20,20.1:40.1,[60,70)");
+    // What is nearer already stays.
+    const RangeSet near = RangeSet::parse("10:29.97,30:50");
+    EXPECT_EQ(withEnd(near, 0, End::Hi, 40, 0.27), near);
+    EXPECT_EQ(withEnd(near, 1, End::Lo, 0, 0.27), near);
+    EXPECT_EQ(withMoved(near, 0, 5, 0.27), near);
+    const RangeSet meeting = RangeSet::parse("[1,2),(2,3]");
+    EXPECT_EQ(withEnd(meeting, 1, End::Lo, 0, 0.27), meeting);
+    EXPECT_EQ(withEnd(meeting, 0, End::Hi, 9, 0.27), meeting);
+    // Finer than doubles are, it stops at the nearest of them.
+    EXPECT_EQ(withEnd(set, 0, End::Hi, 40, 1e-30), withEnd(set, 0, End::Hi, 40));
+}
+
+// Numbers of two decimals stay such, wherever the hand drags them.
+TEST_F(RangeEdits, WhatIsDraggedHasNoMoreDigitsThanItsPartsAndTheHand) {
+    const auto isShort = [](const timeseries::Bound& bound) {
+        const double value = timeseries::toDouble(bound.value);
+        return !(std::abs(value) < 1000) || value == toDecimals(value, 2);
+    };
+    for (int i = 0; i < 3000; ++i) {
+        const RangeSet before = ranges();
+        const std::size_t k = random_() % before.ranges().size();
+        const double by = roundedTo(number() / 7, 0.1);
+        const double to = roundedTo(number(), 0.1);
+        for (const RangeSet& now :
+             {withMoved(before, k, by, 0.1), withEnd(before, k, End::Lo, to, 0.1),
+              withEnd(before, k, End::Hi, to, 0.1)}) {
+            SCOPED_TRACE(before.text() + " became " + now.text());
+            expectOthersStay(now, before, k);
+            if (HasFailure()) return;
+            EXPECT_TRUE(isShort(now.ranges()[k].lo) && isShort(now.ranges()[k].hi));
+        }
+    }
+}
+
 TEST_F(RangeEdits, TypedIntegersStayAsTyped) {
     const RangeSet set = RangeSet::parse("9007199254740993:9007199254740999");
     const auto changed = withEnd(set, 0, End::Lo, 0);

@@ -20,7 +20,8 @@ TEST(ErrorText, IsRoundedToWhatASampleTells) {
     EXPECT_EQ(depthErrorText(0.123), "error about 12 %");
     EXPECT_EQ(depthErrorText(9.99), "error about 999 %");
     EXPECT_EQ(depthErrorText(327.87), "error above 1000 %");
-    EXPECT_EQ(depthErrorText(kInfinite), "");
+    EXPECT_EQ(depthErrorText(kInfinite), "error above 1000 %") << "where nothing is to be seen";
+    EXPECT_EQ(depthErrorText(std::numeric_limits<double>::quiet_NaN()), "");
 }
 
 auto part(const char* name, const char* size, const char* what) {

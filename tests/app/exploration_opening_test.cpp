@@ -109,6 +109,30 @@ TEST(Exploration, AnotherFileHasAFirstChoiceOfItsOwnAndTheLookOfTheMomentItIsThe
     EXPECT_FALSE(sweepOf(now));
 }
 
+// How it is drawn is the look, too.
+TEST(Exploration, AnotherFileIsDrawnAsTheOneBeforeWas) {
+    Desk desk({{"a", {}}, {"b", {}}});
+    desk.open("a");
+    Explorer look = desk.exploration.explorer();
+    look.model = Model::Points;
+    look.light = render::Light::Full;
+    look.lamp = LampChoice{10, 20};
+    look.opacityPer = render::OpacityPer::Length;
+    look.footprint = {.kernel = render::Kernel::Point, .size = 5};
+    look.order = render::Order::None;
+    look.legend = false;
+    look.stereo.mode = Stereo::SideBySide;
+    look.view.azimuthDegrees = 12;
+    desk.exploration.edit(look);
+    desk.open("b");
+    // All that is not of the data.
+    Explorer drawn = desk.exploration.explorer();
+    EXPECT_EQ(drawn.files.front(), "b");
+    drawn.files = look.files;
+    drawn.layers = look.layers;
+    EXPECT_EQ(drawn, look);
+}
+
 TEST(Exploration, AnotherVariableHasAFirstChoiceOfItsOwnAndUndoComesBackAcrossIt) {
     const World world;
     Desk desk({{"a", world}});

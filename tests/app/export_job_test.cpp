@@ -10,7 +10,9 @@
 
 #include "app/choices/session.h"
 #include "app/choices/sweep_edits.h"
+#include "render/image/picture_file.h"
 #include "tests/support/files.h"
+#include "tests/support/variable.h"
 
 // Programs of a line of shell stand for isochron; tests/gl/export_job_test.cpp has the real one.
 namespace app {
@@ -85,8 +87,15 @@ TEST(ExportJob, AChildThatFailsHandsOnItsSentence) {
 TEST(ExportJob, IsCancelledAndItsPartialPictureRemoved) {
     const auto folder = tests::freshFolder();
     tests::writeBytes(folder / "out_0.png", "done");
-    tests::writeBytes(folder / "out_1.png.isochron-part0", "half");
-    tests::writeBytes(folder / "other.png.isochron-part0", "not its own");
+    tests::writeBytes(folder / "out_3.png.isochron-part0", "half");
+    // Of other pictures, whose names begin or end alike, or of no picture.
+    const auto others = {
+        "other.png.isochron-part0", "out_b_07.png.isochron-part0", "out_1.png.isochron-part0",
+        "out.png.isochron-part0",   "out_3.exr.isochron-part0",    "out_3.png.isochron-parts",
+        "out_3.png.isochron-part",  "out_03.png.isochron-part0",   "out_3_left.png.isochron-part0"};
+    for (const char* other : others) tests::writeBytes(folder / other, "not its own");
+    // Another program writes a picture of the same name.
+    render::PartialFile written(folder / "out_4.png");
     ExportJob job(example(), into(folder / "out.png"),
                   programOf("echo picture 1 of 2; exec sleep 1000"));
     pollUntil(job, [&] { return job.done() == 1; });
@@ -97,8 +106,44 @@ TEST(ExportJob, IsCancelledAndItsPartialPictureRemoved) {
     EXPECT_EQ(job.outcome(),
               "Export cancelled after 1 of 3 pictures, which stay in " + folder.string());
     EXPECT_TRUE(std::filesystem::exists(folder / "out_0.png"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "out_1.png.isochron-part0"));
-    EXPECT_TRUE(std::filesystem::exists(folder / "other.png.isochron-part0"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out_3.png.isochron-part0"));
+    for (const char* other : others) EXPECT_TRUE(std::filesystem::exists(folder / other)) << other;
+    EXPECT_NO_THROW(written.commit());
+}
+
+TEST(ExportJob, OfAnEyeAPictureItRemovesThePartsOfBoth) {
+    const auto folder = tests::freshFolder();
+    Explorer e = example();
+    e.stereo.mode = Stereo::LeftRight;
+    for (const char* eye : {"left", "right"})
+        tests::writeBytes(folder / fmt::format("out_2_{}.png.isochron-part0", eye), "half");
+    ExportJob job(e, {folder / "out.png", e, {2, 3, 4}}, programOf("exit 1"));
+    pollToEnd(job);
+    for (const auto& each : std::filesystem::directory_iterator(folder))
+        EXPECT_EQ(each.path().filename(), "program");
+}
+
+// Names of another encoding: an e with an acute accent in Latin-1.
+TEST(ExportJob, GivesTheNamesOfFilesThatAreNoUtf8) {
+    const auto folder = tests::freshFolder();
+    Explorer e = example();
+    e.files = {folder / "n\xe9.nc"};
+    const auto copy = folder / "copy.json";
+    ExportJob job(e, into(folder / "out.png"), programOf("cp $3 " + copy.string()));
+    pollToEnd(job);
+    EXPECT_EQ(readSession(copy), e);
+}
+
+TEST(ExportJob, AFolderOfPassingFilesThatIsNotThereIsNamed) {
+    const auto gone = (tests::freshFolder() / "gone").string();
+    const tests::Variable temporary("TMPDIR", gone);
+    try {
+        ExportJob job(example(), into("out.png"), programOf("exit 0"));
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the export cannot be started: '" + gone +
+                                            "', which TMPDIR names: "));
+    }
 }
 
 TEST(ExportJob, IsCancelledBeforeItsFirstPicture) {

@@ -91,6 +91,25 @@ TEST_P(EveryLayout, AnExportIsToldBetweenTheLegendAndTheNotes) {
     EXPECT_LE(place.max.y, messagesBottom(picture, layout_.scale));
 }
 
+TEST(Layout, ASessionThatIsOfferedLeavesTheLegendFree) {
+    for (float width = 320; width < 2000; width += 40)
+        for (const glm::vec2 legend : {glm::vec2(0), {170, 90}, {240, 300}}) {
+            const Rect picture{{7, 5}, {7 + width, 505}};
+            const auto at = recoveryOfferLayout(picture, 1, legend);
+            EXPECT_GE(at.whole.min.x, picture.min.x);
+            EXPECT_LE(at.whole.max.y, picture.max.y);
+            EXPECT_TRUE(at.whole.min.x + 1 >= picture.min.x + legend.x ||
+                        at.whole.min.y >= picture.min.y + legend.y)
+                << width;
+            if (width > 900) {
+                EXPECT_EQ(at.whole.min.y, picture.min.y + 14) << "beside it";
+            }
+            for (const Rect& button : {at.goOn, at.discard}) {
+                EXPECT_TRUE(at.whole.holds(button.min) && at.whole.holds(button.max));
+            }
+        }
+}
+
 TEST(Layout, TheColumnKeepsItsWidthWithinLimits) {
     const glm::vec2 window(1440, 900);
     EXPECT_EQ(layoutOf(window, 1, 10).side.size().x, 320);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "app/choices/user_files.h"
 #include "tests/support/files.h"
@@ -99,6 +100,22 @@ TEST(Preferences, ADamagedFileIsToldAndTheUsualOnesHold) {
         EXPECT_THAT(problem, HasSubstr(why)) << text;
         EXPECT_THAT(problem, HasSubstr(file.string())) << text;
     }
+}
+
+TEST(Preferences, WhatCannotBeReadIsToldLikeDamage) {
+    const auto folder = tests::freshFolder();
+    std::filesystem::create_directory(folder / "folder.json");
+    ASSERT_EQ(mkfifo((folder / "pipe.json").c_str(), 0600), 0);
+    std::filesystem::create_symlink("/proc/self/mem", folder / "no_bytes.json");  // it has no first
+    for (const auto& [name, why] : {std::pair("folder.json", "expected a file, but it is a folder"),
+                                    std::pair("pipe.json", "expected an ordinary file"),
+                                    std::pair("no_bytes.json", "it cannot be read")}) {
+        const auto [preferences, problem] = readPreferences(folder / name);
+        EXPECT_EQ(preferences, Preferences{}) << name;
+        EXPECT_EQ(problem, fmt::format("{}: the preferences are not used: {}",
+                                       (folder / name).string(), why));
+    }
+    EXPECT_EQ(readPreferences(folder / "none.json").problem, "");
 }
 
 TEST(Preferences, CostsThatCannotBeAreNotKnownAndTheOthersHold) {

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
+#include <random>
 
 #include "app/choices/choice_text.h"
 #include "tests/support/picture_of_a_ramp.h"
@@ -69,11 +71,35 @@ TEST(RangeLabel, LongDoublesAreRoundedAndSaidToBe) {
     const auto label = [](const char* text) { return rangeLabel(RangeSet::parse(text), "K"); };
     EXPECT_EQ(label("0.1:0.30000000000000004"), "≈ 0.1 to 0.3 K");
     EXPECT_EQ(label("1426.5184782812678:max"), "≈ ≥ 1426.518 K");
-    // As many digits as tell the ends apart; integers are never rounded.
-    EXPECT_EQ(label("1.00000000123:1.00000000456"), "≈ 1.000000001 to 1.000000005 K");
+    // As many digits as tell the ends apart, and how far; integers are never rounded.
+    EXPECT_EQ(label("1.00000000123:1.00000000456"), "≈ 1.0000000012 to 1.0000000046 K");
     EXPECT_EQ(label("0.3:0.30000000000000004"), "0.3 to 0.30000000000000004 K");
     EXPECT_EQ(label("9007199254740993:9007199254740995"), "9007199254740993 to 9007199254740995 K");
     EXPECT_EQ(label("123456.7:123456789.5"), "123456.7 to 123456789.5 K") << "no shorter so";
+}
+
+TEST(RangeLabel, ARangeIsToldAboutAsWideAsItIs) {
+    const auto label = [](const char* text) { return rangeLabel(RangeSet::parse(text), "K"); };
+    EXPECT_EQ(label("10000000.2:10000000.75"), "10000000.2 to 10000000.75 K");
+    EXPECT_EQ(label("9999999.5:10000000.5"), "9999999.5 to 10000000.5 K");
+    EXPECT_EQ(label("101325.149:101325.251"), "≈ 101325.15 to 101325.25 K");
+    EXPECT_EQ(label("12345678.91234:123456789.5"), "12345678.91234 to 123456789.5 K");
+    EXPECT_EQ(label("0.000012345678:1000.123456789"), "≈ 1.234568e−05 to 1000.123 K")
+        << "nothing is rounded away";
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> mantissa(1, 10), exponent(-12, 12), narrow(-9, 1);
+    for (int i = 0; i < 3000; ++i) {
+        const double sign = random() % 2 == 0 ? 1 : -1;
+        const double lo = sign * mantissa(random) * std::pow(10, exponent(random));
+        const double hi = lo + std::abs(lo) * std::pow(10, narrow(random));
+        std::string told = rangeLabel(RangeSet({timeseries::Range{{lo}, {hi}}}), "");
+        for (std::size_t at; (at = told.find("\u2212")) != told.npos;) told.replace(at, 3, "-");
+        if (told.starts_with("≈ ")) told.erase(0, std::string_view("≈ ").size());
+        const std::size_t to = told.find(" to ");
+        ASSERT_NE(to, told.npos) << told;
+        const double width = std::stod(told.substr(to + 4)) - std::stod(told.substr(0, to));
+        EXPECT_NEAR(width, hi - lo, 0.051 * (hi - lo)) << told;
+    }
 }
 
 // Doubles that seven digits do not tell apart, as bounds of different ranges.

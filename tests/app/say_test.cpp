@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "app/json_text.h"
 #include "tests/support/built_paths.h"
 #include "tests/support/files.h"
 
@@ -27,6 +28,29 @@ TEST(Say, TellsATerminalNothingToObey) {
     sayTo(out, "a\t{}b\n", std::string("\x1b[2J\0\r\x7f", 7));
     std::fclose(out);
     EXPECT_EQ(tests::readBytes(file), "a\t\uFFFD[2J\uFFFD\uFFFD\uFFFDb\n");
+}
+
+TEST(Say, TellsATerminalNothingToObeyInUtf8Either) {
+    // C1's ends, CSI among them; what turns the text round, and back; none of their neighbours.
+    for (const char* obeyed :
+         {"\u0080", "\u009b", "\u009f", "\u202a", "\u202e", "\u2066", "\u2069"})
+        EXPECT_EQ(harmless(obeyed), "\uFFFD") << obeyed;
+    for (const char* shown :
+         {"\u00a0", "\u00e9", "\u2029", "\u202f", "\u2065", "\u206a", "\U0001F300"})
+        EXPECT_EQ(harmless(shown), shown);
+}
+
+TEST(JsonText, HoldsItsDataInWhatATerminalDoesNotObey) {
+    const std::string raw("a\x7f\u009b\u202e\x1b\n\t\"\\\0\u00e9\U0001F300", 26);
+    const nlohmann::json data{{raw, {raw, 1}}};
+    for (const int indent : {-1, 2}) {
+        const std::string text = jsonText(data, indent);
+        EXPECT_EQ(nlohmann::json::parse(text), data);
+        EXPECT_EQ(harmless(text), text);
+    }
+    EXPECT_EQ(jsonText(nlohmann::json("\x7f\u0085\u2066"), -1), R"("\u007f\u0085\u2066")");
+    // What is no UTF-8 no JSON can hold.
+    EXPECT_EQ(jsonText(nlohmann::json("caf\xe9"), -1), "\"caf\uFFFD\"");
 }
 
 TEST(Say, IsTheOnlyDoor) {

@@ -47,6 +47,21 @@ TEST(Session, UnknownKeysAreNamedWhereverTheyStand) {
     expectRefused({{"isochron", 1}, {"", 0}}, "''");
 }
 
+TEST(Session, APathThatNoFileCanHaveIsRefused) {
+    const std::string nul("a\0.nc", 5);
+    expectRefused({{"isochron", 1}, {"files", {nul}}}, "session.files: has a path with a NUL");
+    expectRefused({{"isochron", 1}, {"files", {"a.nc"}}, {"filesWere", {"/" + nul}}},
+                  "session.filesWere: has a path with a NUL");
+    const auto escaped = [](const char* path) {
+        return json{{"isochron", 1}, {"filesEscaped", true}, {"files", {path}}};
+    };
+    expectRefused(escaped("a%00.nc"), "NUL");
+    for (const char* path : {"%", "a%4", "%G1", "%-1", "%4.nc", "% 4"})
+        expectRefused(escaped(path), "hexadecimal");
+    EXPECT_EQ(fromJson(escaped("%61%2f%E9"), "/").files, (std::vector<fs::path>{"/a/\xe9"}));
+    expectRefused({{"isochron", 1}, {"filesEscaped", 1}}, "session.filesEscaped");
+}
+
 TEST(Session, AnotherVersionIsRefused) {
     for (const json& version :
          {json(0), json(2), json(-1), json("1"), json(nullptr), json(true), json(1.5), json({1})})
@@ -196,6 +211,16 @@ std::string refusal(const std::string& bytes) {
     }
     ADD_FAILURE() << "accepted: " << bytes.substr(0, 200);
     return {};
+}
+
+TEST(Session, AKeyThatStandsTwiceInAnObjectIsNamed) {
+    EXPECT_THAT(refusal(R"({"isochron":1,"variable":"a","variable":"b"})"),
+                HasSubstr("session.json: an object has the key 'variable' twice"));
+    EXPECT_THAT(
+        refusal(R"({"isochron":1,"layers":[{"range":"0:1"},{"range":"0:1","range":"0:1"}]})"),
+        HasSubstr("'range' twice"));
+    EXPECT_THAT(refusal(R"({"isochron":1,"view":{"azimuth":1},"vi\u0065w":{}})"),
+                HasSubstr("'view' twice"));
 }
 
 TEST(Session, AFileThatIsNoJsonSaysWhere) {

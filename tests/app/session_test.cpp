@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/files/picture_files.h"
 #include "render/image/exr.h"
 #include "render/image/png.h"
 #include "tests/support/files.h"
@@ -143,11 +144,19 @@ TEST(Session, AbsolutePathsInAFileStayWhatTheyAre) {
               (std::vector<fs::path>{"/abs/fire.nc", "/folder/near.nc"}));
 }
 
-TEST(Session, OfEqualKeysOneCountsAndNothingBreaks) {
-    const fs::path file = tests::freshFolder() / "session.json";
-    tests::writeBytes(file, R"({"isochron":1,"variable":"a","variable":"b"})");
-    const std::string variable = readSession(file).variable;
-    EXPECT_TRUE(variable == "a" || variable == "b");
+TEST(Session, PathsThatAreNoUtf8ComeBackByteForByte) {
+    Explorer e;
+    e.files = {"/data/n\xe9.nc", "/data/100%41.nc", "/data/\xff\xc3\xa9\xc3.nc"};
+    const json session = toJson(e, "/data");
+    EXPECT_EQ(session["files"], json({"n%E9.nc", "100%2541.nc", "%FF\u00e9%C3.nc"}));
+    EXPECT_TRUE(fromJson(json::parse(session.dump()), "/data") == e);
+    // Of a folder, too: the session's own is not in the relative path.
+    e.files = {"/d\xe9/100%41.nc"};
+    EXPECT_TRUE(fromJson(json::parse(toJson(e, "/d\xe9").dump()), "/d\xe9") == e);
+    // Others stand as they are.
+    e.files = {"/data/100%41.nc"};
+    EXPECT_EQ(toJson(e, "/data")["files"], json({"100%41.nc"}));
+    EXPECT_FALSE(toJson(e, "/data").contains("filesEscaped"));
 }
 
 TEST(Session, APictureGivesBackTheSessionThatItCarries) {
@@ -163,6 +172,22 @@ TEST(Session, APictureGivesBackTheSessionThatItCarries) {
         render::writeExr(folder / "a.exr", views, texts);
         EXPECT_TRUE(readSession(folder / "a.exr") == e);
     }
+}
+
+TEST(Session, APicturesEndingMayBeInCapitals) {
+    const fs::path folder = tests::freshFolder();
+    Explorer e;
+    e.files = {"/data/a.nc"};
+    const render::Metadata texts{{kSessionKey, toJson(e, folder).dump()}};
+    for (const char* name : {"a.PNG", "a.EXR", "a.Png"}) {
+        write(folder / name, Stereo::Off, {{render::Image({3, 2}), {}, {}}}, texts);
+        EXPECT_TRUE(holdsSession(name));
+        EXPECT_TRUE(readSession(folder / name) == e) << name;
+    }
+    // As the formats' first bytes say.
+    EXPECT_EQ(tests::readBytes(folder / "a.PNG").substr(1, 3), "PNG");
+    EXPECT_EQ(tests::readBytes(folder / "a.EXR").substr(0, 2), "v/");
+    EXPECT_TRUE(holdsSession("a.JSON"));
 }
 
 }  // namespace

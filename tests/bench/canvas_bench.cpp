@@ -148,7 +148,7 @@ void BM_AxesAndLegend(benchmark::State& state) {
     for (auto _ : state) {
         const auto legend = render::legendMesh(picture.legend, font, kSize);
         benchmark::DoNotOptimize(
-            render::axesMeshes(shown.steps[0]->grid(), placed, view, eye, font, legend));
+            render::axesMeshes(shown.steps[0]->grid(), placed, view, {eye}, font, legend));
     }
 }
 BENCHMARK(BM_AxesAndLegend)->Unit(benchmark::kMillisecond);

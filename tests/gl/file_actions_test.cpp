@@ -55,13 +55,15 @@ TEST(FileActions, ASavedSessionTellsTheErrorAndIsReadWithoutIt) {
     Exploration exploration({});
     std::optional<ExportJob> exporting;
     FileActions fileActions(exploration, canvas, exporting, [](const std::string&) {});
-    for (const std::optional<double> error : {std::optional<double>(), std::optional(0.03125)}) {
+    for (const std::optional<double> error :
+         {std::optional<double>(), std::optional(0.03125), std::optional(kInfinity)}) {
         const auto file = home / "s.json";
         fileActions.save(file, error);
         const auto session = nlohmann::json::parse(std::ifstream(file));
         EXPECT_EQ(session.contains("opticalDepthError"), error.has_value());
         if (error) {
-            EXPECT_EQ(session["opticalDepthError"], *error);
+            EXPECT_EQ(session["opticalDepthError"],
+                      *error == kInfinity ? nlohmann::json("inf") : nlohmann::json(*error));
         }
         EXPECT_EQ(readSession(file), exploration.explorer());
     }

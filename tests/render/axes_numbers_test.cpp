@@ -60,7 +60,7 @@ TEST(Axes, WhatIsSeenOfAnEdgeIsNumbered) {
     const glm::dvec3 eye = corner + glm::dvec3(0.15, -0.6, 0.1);
     View view = lookFrom(eye, size);
     view.viewFromWorld = glm::lookAt(eye, corner, glm::dvec3(0, 0, 1));
-    const auto meshes = axesMeshes(ocean(), placed, view, eye, fontFor(size));
+    const auto meshes = axesMeshes(ocean(), placed, view, {eye}, fontFor(size));
     const auto shown = [&](const char* text) {
         return tests::find(meshes.labels, fontFor(size), labelStyle(size), text).has_value();
     };
@@ -232,7 +232,7 @@ TEST(Axes, DegreesOfManyCirclesAreNumberedSparsely) {
         const glm::ivec2 size(800, 600);
         const glm::dvec3 eye(0.5, -4, 1);
         const AxesMeshes meshes =
-            axesMeshes(grid, PlacedPoints(grid), lookFrom(eye, size), eye, fontFor(size));
+            axesMeshes(grid, PlacedPoints(grid), lookFrom(eye, size), {eye}, fontFor(size));
         EXPECT_LT(meshes.before.triangles().size(), 6u * 60) << step;
     }
 }
@@ -246,7 +246,7 @@ TEST(Axes, LabelsKeepOffTheLegend) {
     FlatMesh legend;
     const float reach = 6;
     legend.rect(where->lo - reach, where->hi + reach, glm::vec4(1));
-    const auto meshes = axesMeshes(fire(), alone.placed, alone.view, eye, alone.font, legend);
+    const auto meshes = axesMeshes(fire(), alone.placed, alone.view, {eye}, alone.font, legend);
     for (const auto& shape : shapes(meshes.labels))
         EXPECT_FALSE(tests::overlap(shape.covers, {where->lo - reach, where->hi + reach}));
     EXPECT_TRUE(tests::find(meshes.labels, alone.font, labelStyle(size), "z (m)"));
@@ -261,7 +261,7 @@ TEST(Axes, LabelsKeepOffTheLegendsGround) {
     ASSERT_TRUE(where);
     FlatMesh legend;  // beside the name, nearer than its ground reaches
     legend.rect({where->lo.x - 10, where->lo.y}, {where->lo.x - 3, where->hi.y}, glm::vec4(1));
-    const auto meshes = axesMeshes(fire(), alone.placed, alone.view, eye, alone.font, legend);
+    const auto meshes = axesMeshes(fire(), alone.placed, alone.view, {eye}, alone.font, legend);
     for (const auto& shape : shapes(meshes.labels))
         for (const auto& dark : shapes(legendGround(legend, size, glm::dvec3(0))))
             EXPECT_FALSE(tests::overlap(shape.covers, dark.covers));
@@ -318,7 +318,7 @@ TEST(Axes, BothEyesLabelTheSameEdgesAndTicks) {
             eye.viewFromWorld[3].x -= apart;
             // The eyes' frusta lean outward, as a headset's do.
             eye.clipFromView[2][0] = side == 0 ? -0.1 : 0.1;
-            const auto meshes = axesMeshes(grid, placed, eye, mid, fontFor(size));
+            const auto meshes = axesMeshes(grid, placed, eye, {mid}, fontFor(size));
             tickCount[static_cast<std::size_t>(side)] = meshes.before.triangles().size();
         }
         EXPECT_EQ(tickCount[0], tickCount[1]) << i;

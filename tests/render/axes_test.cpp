@@ -67,7 +67,7 @@ TEST(Axes, OfATurnedGridAreTheUprightOnesSeenByATurnedCamera) {
         View view = upright.view;
         view.viewFromWorld *= glm::dmat4(glm::transpose(turn));
         const AxesMeshes meshes =
-            axesMeshes(turned, PlacedPoints(turned), view, turn * eye, upright.font);
+            axesMeshes(turned, PlacedPoints(turned), view, {turn * eye}, upright.font);
         const auto same = [](const FlatMesh& a, const FlatMesh& b) {
             ASSERT_EQ(a.triangles().size(), b.triangles().size());
             for (std::size_t i = 0; i < a.triangles().size(); ++i)

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <random>
+
 #include "tests/support/flat_text.h"
 
 namespace render {
@@ -20,6 +23,39 @@ TEST_F(FittedText, IsTheLongestBeginningWithAnEllipsis) {
     EXPECT_EQ(shortened(font_, style_, text, width("grö…")), "grö…");
     EXPECT_EQ(shortened(font_, style_, text, width("grö…") - 1), "gr…");
     EXPECT_EQ(shortened(font_, style_, text, 1), "");
+}
+
+// Against each beginning in turn, of characters of one byte to four, and spaces.
+TEST_F(FittedText, NoLongerBeginningFits) {
+    std::mt19937 random(3);
+    const char* const kCharacters[] = {"i", "W", " ", "é", "世", "\U0001F300"};
+    for (int i = 0; i < 100; ++i) {
+        std::vector<std::string> beginnings{""};
+        for (std::size_t n = 1 + random() % 12; n > 0; --n)
+            beginnings.push_back(beginnings.back() + kCharacters[random() % 6]);
+        const std::string text = beginnings.back();
+        const float room = width(text) * static_cast<float>(random() % 100) / 100;
+        std::string expected;
+        for (std::string beginning : beginnings) {
+            while (beginning.ends_with(' ')) beginning.pop_back();
+            if (!beginning.empty() && width(beginning + "…") <= room) expected = beginning + "…";
+        }
+        EXPECT_EQ(shortened(font_, style_, text, room), width(text) <= room ? text : expected)
+            << "'" << text << "' in " << room;
+    }
+}
+
+// Of 64,000 characters 17 beginnings are measured to find it, not each.
+TEST_F(FittedText, IsFoundOfALongTextInTheTimeOfAFewMeasurements) {
+    using Clock = std::chrono::steady_clock;
+    std::string text;
+    for (int i = 0; i < 16'000; ++i) text += "abc ";
+    const auto start = Clock::now();
+    for (int i = 0; i < 10; ++i) EXPECT_GT(width(text), 1000);
+    const auto measured = Clock::now() - start;
+    EXPECT_FALSE(shortened(font_, style_, text, 100).empty());
+    EXPECT_EQ(wrapped(font_, style_, text, 100, 3).size(), 3u);
+    EXPECT_LT(Clock::now() - start - measured, 100 * measured);
 }
 
 TEST_F(FittedText, IsBrokenBetweenWords) {

@@ -288,7 +288,7 @@ TEST(Globe, LinesEndAtTheHorizon) {
     const glm::ivec2 size(400, 400);
     const glm::dvec3 eye(0, -4, 1);
     const View view = tests::lookFrom(eye, size, 0.3);
-    const AxesMeshes meshes = axesMeshes(*grid, placed, view, eye, tests::fontFor(size));
+    const AxesMeshes meshes = axesMeshes(*grid, placed, view, {eye}, tests::fontFor(size));
     ASSERT_FALSE(meshes.labels.covers().empty());
     ASSERT_TRUE(meshes.mapBehind.triangles().empty() && meshes.mapBefore.triangles().empty());
     const glm::dmat4 worldFromClip = glm::inverse(view.clipFromView * view.viewFromWorld);

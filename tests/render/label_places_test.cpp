@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <random>
@@ -87,7 +88,7 @@ TEST(Distance, IsThatOfTheNearestPlaceOnTheLine) {
 class Places : public testing::Test {
  protected:
     const View view_ = tests::lookFrom({0, -4, 0}, {400, 300});
-    const Sights sights_{view_, {0, -4, 0}, glm::dvec3(0.5)};
+    const Sights sights_{view_, {{0, -4, 0}}, glm::dvec3(0.5)};
     // 20 x 10 pixels around where its anchor is seen.
     static Label label(const glm::dvec3& anchor) {
         return {"a", anchor, {{-10, -5}, {10, 5}}, {-10, -5}};
@@ -114,11 +115,28 @@ TEST_F(Places, AreInThePictureApartFromWhatIsTakenAndOffLines) {
     EXPECT_FALSE(places.fits(label({column(105), 0, 0}), 0, 0));
 }
 
+// What one eye sees is the middle, however its picture is shifted; of two, what both share is.
+TEST_F(Places, AreOfTheShiftThatBothEyesHave) {
+    View eye = view_;
+    eye.clipFromView[2] = {60.0 / 200, 30.0 / 150, eye.clipFromView[2].z, -1};
+    const Middle shifted{{0, -4, 0}, glm::dvec2(eye.clipFromView[2])};
+    EXPECT_EQ(Sights(eye, shifted, glm::dvec3(0.5)).count(), 1u);
+    eye.clipFromView[2][0] = 100.0 / 200;
+    const Sights both(eye, shifted, glm::dvec3(0.5));
+    ASSERT_EQ(both.count(), 3u);
+    const std::array columns = {140.0, 100.0, 180.0};
+    for (std::size_t sight = 0; sight < columns.size(); ++sight) {
+        const glm::dvec2 seen = both.pixel(sight, {0, 0, 0});
+        EXPECT_NEAR(seen.x, columns[sight], 1e-9);
+        EXPECT_NEAR(seen.y, 150 + 30, 1e-9);
+    }
+}
+
 // A place 40 pixels to one side for this eye is 40 to the other for the other eye.
 TEST_F(Places, WithTwoEyesAreFreeForBoth) {
     View eye = view_;
     eye.clipFromView[2][0] = 40.0 / 200;
-    const Sights both(eye, {0, -4, 0}, glm::dvec3(0.5));
+    const Sights both(eye, {{0, -4, 0}}, glm::dvec3(0.5));
     ASSERT_EQ(both.count(), 3u);
     EXPECT_NEAR(both.pixel(1, {0, 0, 0}).x - 200, -40, 1e-9);
     EXPECT_NEAR(both.pixel(2, {0, 0, 0}).x - 200, 40, 1e-9);

@@ -162,7 +162,7 @@ TEST(MapLines, AreDrawnOnTheSurface) {
     for (const double z : {2.0, 0.05, -2.0}) {
         const glm::dvec3 eye(0.3, -2.5, z);
         const View view = tests::lookFrom(eye, size, 0.4);
-        const AxesMeshes meshes = axesMeshes(grid, placed, view, eye, tests::fontFor(size));
+        const AxesMeshes meshes = axesMeshes(grid, placed, view, {eye}, tests::fontFor(size));
         const FlatMesh &drawn = z > 1 ? meshes.mapBefore : meshes.mapBehind,
                        &other = z > 1 ? meshes.mapBehind : meshes.mapBefore;
         EXPECT_TRUE(other.triangles().empty());
@@ -184,7 +184,7 @@ TEST(MapLines, AreDrawnOnTheSurface) {
     // Of a sheet over it.
     const Grid sheet = mapOf(east(-180, 178), north(-88, 88), measuredAxis("z", "m", 0, 0, 1));
     const glm::dvec3 eye(0.3, -2.5, 2);
-    EXPECT_FALSE(axesMeshes(sheet, PlacedPoints(sheet), tests::lookFrom(eye, size, 0.4), eye,
+    EXPECT_FALSE(axesMeshes(sheet, PlacedPoints(sheet), tests::lookFrom(eye, size, 0.4), {eye},
                             tests::fontFor(size))
                      .mapBefore.triangles()
                      .empty());

@@ -71,6 +71,37 @@ TEST(PartialFile, LeftoversAreNotInTheWay) {
     EXPECT_FALSE(fs::exists(folder / "picture.png.isochron-part1"));
 }
 
+TEST(PartialFile, WhatIsLeftIsRemovedAndWhatIsWrittenNot) {
+    const fs::path folder = tests::freshFolder(), to = folder / "picture.png";
+    const auto part = [&](int n) {
+        return folder / ("picture.png.isochron-part" + std::to_string(n));
+    };
+    PartialFile written(to);
+    ASSERT_TRUE(fs::exists(part(0)));
+    tests::writeBytes(part(1), "left");
+    for (int n = 0; n < 3; ++n) PartialFile::removeLeft(part(n));
+    EXPECT_TRUE(fs::exists(part(0)));
+    EXPECT_FALSE(fs::exists(part(1)));
+    written.commit();
+    EXPECT_TRUE(fs::exists(to));
+}
+
+TEST(PartialFile, NamesWhatItIsToBecome) {
+    EXPECT_EQ(PartialFile::destinationOf("a/b.png.isochron-part12"), "a/b.png");
+    for (const char* other : {"b.png", "b.png.isochron-part", "b.png.isochron-part1x",
+                              "b.png.isochron-part1.png", "", "isochron-part1"})
+        EXPECT_EQ(PartialFile::destinationOf(other), "") << other;
+}
+
+TEST(PictureFile, ItsFormatIsToldByTheEndingInCapitalsOrNot) {
+    for (const char* name : {"a.png", "a.PNG", "a.exr.Png"}) EXPECT_TRUE(isPng(name)) << name;
+    for (const char* name : {"a.exr", "a.EXR"}) EXPECT_TRUE(isExr(name)) << name;
+    for (const char* name : {"a.pngs", "png", "a.png.json", ""}) {
+        EXPECT_FALSE(isPng(name)) << name;
+        EXPECT_FALSE(isExr(name)) << name;
+    }
+}
+
 TEST(PartialFile, WhoMayReadAFileStaysAsItIs) {
     const fs::path to = tests::freshFolder() / "own";
     tests::writeBytes(to, "before");

@@ -213,6 +213,17 @@ TEST(PlacedPoints, AxesOfOneUnitAreNeverStretchedHoweverFlat) {
     EXPECT_NEAR(fitted.boxHalf().z / fitted.boxHalf().x, 0.5, 1e-12);
 }
 
+// To three digits, so that what they do not show is not told.
+TEST(PlacedPoints, AStretchIsToldWhereItsDigitsShowIt) {
+    const Grid grid({in("m", axis(5)), in("m", axis(5)), in("m", axis(5))});
+    for (const auto& [times, told] : {std::pair{2.0, "x \u00d7 2"},
+                                      {1.006, "x \u00d7 1.01"},
+                                      {1.004, ""},
+                                      {0.9996, ""},
+                                      {0.9994, "x \u00d7 0.999"}})
+        EXPECT_EQ(stretchText(grid, PlacedPoints(grid, glm::dvec3(1, 1, times))), told) << times;
+}
+
 TEST(PlacedPoints, TheDomainHoldsHalfACellBeyondTheOutermostPoints) {
     auto uneven = tests::axis(4);
     uneven.coordinates = {0, 1, 3, 7};

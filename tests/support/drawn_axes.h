@@ -68,7 +68,7 @@ struct Drawn {
         : placed(grid),
           view(lookFrom(eye, size, tangent)),
           font(fontFor(size)),
-          meshes(axesMeshes(grid, placed, view, eye, font)) {}
+          meshes(axesMeshes(grid, placed, view, {eye}, font)) {}
     std::optional<Rect> label(const std::string& text) const {
         return tests::find(meshes.labels, font, labelStyle(view.size), text);
     }

@@ -70,7 +70,8 @@ class RandomExplorer {
 
  private:
     static constexpr const char* kFiles[] = {"/data/run/fire.nc", "/data/run/b/c d.nc",
-                                             "/other/é 世界.nc", "/data/x.nc", "/data/run/'q'.nc"};
+                                             "/other/é 世界.nc",  "/data/x.nc",
+                                             "/data/run/'q'.nc",  "/data/r\xe9n/100%41.nc"};
     static constexpr const char* kNames[] = {"T", "air temperature", "θ", "a\"b\\c\n", "0"};
 
     template <typename T, std::size_t N>

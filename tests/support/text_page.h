@@ -22,12 +22,12 @@ struct Page {
     render::Sights sights;
 
     Page(const timeseries::Grid& grid, const render::PlacedPoints& placed, const render::View& view,
-         const glm::dvec3& midEye, const render::Legend& words)
+         const render::Middle& middle, const render::Legend& words)
         : size(view.size),
           legend(render::legendMesh(words, fontFor(size), size)),
-          axes(render::axesMeshes(grid, placed, view, midEye, fontFor(size), legend)),
-          sights(placed.inAxes(view), inAxes(placed, midEye), placed.boxHalf()) {
-        labels = render::axisLabels(grid, placed, sights, inAxes(placed, midEye), size,
+          axes(render::axesMeshes(grid, placed, view, middle, fontFor(size), legend)),
+          sights(placed.inAxes(view), {inAxes(placed, middle.eye), middle.lean}, placed.boxHalf()) {
+        labels = render::axisLabels(grid, placed, sights, inAxes(placed, middle.eye), size,
                                     fontFor(size), render::labelStyle(size), plates());
     }
     static glm::dvec3 inAxes(const render::PlacedPoints& placed, const glm::dvec3& world) {

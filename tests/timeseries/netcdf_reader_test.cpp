@@ -366,5 +366,27 @@ TEST(NetcdfReader, EachFileOfASeriesHasItsOwnPacking) {
                 ElementsAre(101, 102, 103, 104));
 }
 
+// The library takes a backslash for a slash.
+TEST(NetcdfReader, ABackslashInANameIsNoSlash) {
+    const Path folder = tests::freshFolder();
+    std::filesystem::create_directory(folder / "a");
+    for (const int mode : {NC_NETCDF4, NC_CLASSIC_MODEL, NC_64BIT_OFFSET}) {
+        const auto withValue = [&](float value, const Path& name) {
+            const Path made = plane(
+                "made.nc", std::vector<float>(6, value), [](NetcdfBuilder&, int) {}, mode);
+            std::filesystem::rename(made, folder / name);
+        };
+        const auto expectTwos = [&] {
+            const auto reader = open(folder / "a\\h.nc");
+            EXPECT_THAT(asValues<float>(reader->read(0, 0)), testing::Each(2)) << mode;
+        };
+        withValue(1, "a/h.nc");
+        withValue(2, "a\\h.nc");
+        expectTwos();
+        std::filesystem::remove(folder / "a" / "h.nc");
+        expectTwos();
+    }
+}
+
 }  // namespace
 }  // namespace timeseries

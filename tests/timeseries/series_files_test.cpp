@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "tests/support/series_folder.h"
 
@@ -196,6 +197,73 @@ TEST_F(SeriesFiles, APatternIsExpanded) {
     // A file of that very name is no pattern.
     EXPECT_THAT(names(expand("[1].nc")), ElementsAre("[1].nc"));
     EXPECT_THAT(failure("z*.nc"), HasSubstr("z*.nc: no file has such a name"));
+}
+
+// Folders r1 to r3, each with the step a.nc; as a user whom permissions bind.
+class PatternOfFolders : public SeriesFiles {
+ protected:
+    PatternOfFolders() {
+        for (const char* folder : {"r1", "r2", "r3"}) {
+            std::filesystem::create_directory(folder_ / folder);
+            writeBytes(folder_ / folder / "a.nc", "");
+        }
+        wasRoot_ = geteuid() == 0 && setresuid(kNobody, kNobody, 0) == 0;
+    }
+    ~PatternOfFolders() override {
+        allow("r2", 0700);
+        become(0);
+    }
+    void allow(const char* folder, unsigned mode) const {
+        become(0);
+        std::filesystem::permissions(folder_ / folder, std::filesystem::perms(mode));
+        become(kNobody);
+    }
+
+ private:
+    static constexpr uid_t kNobody = 65534;
+    void become(uid_t user) const {
+        if (!wasRoot_) return;
+        EXPECT_EQ(setresuid(user, user, 0), 0);
+    }
+    bool wasRoot_ = false;
+};
+
+TEST_F(PatternOfFolders, OneThatCannotBeListedIsNotLeftOut) {
+    for (const char* pattern : {"r*/*.nc", "r*/a.nc", "r[12]/a.nc", "r2/*.nc"}) {
+        EXPECT_EQ(failure(pattern), "") << pattern;
+        allow("r2", 0);
+        EXPECT_THAT(failure(pattern), HasSubstr("expected a pattern whose folders can be listed"));
+        allow("r2", 0755);
+    }
+    // Nor one above the last.
+    for (const char* folder : {"r1", "r2", "r3"}) {
+        allow(folder, 0777);
+        std::filesystem::create_directory(folder_ / folder / "in");
+        writeBytes(folder_ / folder / "in" / "b.nc", "");
+        allow(folder, 0755);
+    }
+    for (const char* pattern : {"r*/in/*.nc", "r*/in/b.nc", "r*/*/b.nc"}) {
+        EXPECT_EQ(expand(pattern).files.size(), 3u) << pattern;
+        allow("r2", 0);
+        EXPECT_THAT(failure(pattern), HasSubstr("folders can be listed")) << pattern;
+        allow("r2", 0755);
+    }
+    // One that is not asked for does not matter.
+    allow("r2", 0);
+    EXPECT_EQ(expand("r[13]/*.nc").files.size(), 2u);
+}
+
+TEST_F(PatternOfFolders, WhatIsNoFolderOrHasNoSuchFileIsLeftOut) {
+    allow(".", 0777);
+    std::filesystem::create_directory(folder_ / "r4");
+    writeBytes(folder_ / "r5", "a file");
+    std::filesystem::create_symlink("nowhere", folder_ / "r6");
+    std::filesystem::create_symlink("r7", folder_ / "r7");  // to itself
+    for (const char* pattern : {"r*/*.nc", "r*/a.nc", "*/a.n?"})
+        EXPECT_EQ(expand(pattern).files.size(), 3u) << pattern;
+    for (const char* pattern : {"r4/*.nc", "r5/*.nc", "r6/*.nc", "r7/*.nc", "r8/*.nc", "r8/*/*.nc"})
+        EXPECT_THAT(failure(pattern), HasSubstr("no file has such a name")) << pattern;
+    allow(".", 0755);
 }
 
 TEST_F(SeriesFiles, SeveralNamedKeepTheirOrderUnlessNumbered) {

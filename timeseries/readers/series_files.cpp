@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 #include <glob.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <map>
 #include <memory>
@@ -291,17 +293,48 @@ ExpandedSeries folder(const Path& folder) {
     return result;
 }
 
+bool hasWildcards(const Path& path) {
+    return path.string().find_first_of("*?[") != std::string::npos;
+}
+
 bool isPattern(const Path& path) {
     std::error_code ignored;
-    return path.string().find_first_of("*?[") != std::string::npos &&
-           !std::filesystem::exists(path, ignored);
+    return hasWildcards(path) && !std::filesystem::exists(path, ignored);
+}
+
+// False where some folder cannot be listed; one that is not there, as where a link leads nowhere,
+// has no files. REQUIRES: `found` is empty; it is to be freed.
+bool globbed(const Path& pattern, glob_t& found) {
+    const auto isRefused = [](const char*, int error) {
+        return static_cast<int>(error != ENOENT && error != ENOTDIR && error != ELOOP);
+    };
+    const int code = glob(pattern.c_str(), GLOB_NOSORT, isRefused, &found);
+    return code == 0 || code == GLOB_NOMATCH;
+}
+
+// Whether what is in the pattern's folders can be asked for: a name without wildcards is not looked
+// for in a list of all, and where it cannot be seen it is not there for glob().
+bool canBeSought(const Path& pattern) {
+    for (Path folders = pattern.parent_path(); hasWildcards(folders);
+         folders = folders.parent_path()) {
+        glob_t found{};
+        const bool listed = globbed(folders, found);
+        const std::unique_ptr<glob_t, void (*)(glob_t*)> release(&found, globfree);
+        if (!listed) return false;
+        for (const char* each : std::span(found.gl_pathv, found.gl_pathc)) {
+            std::error_code ignored;
+            if (std::filesystem::is_directory(each, ignored) && access(each, X_OK) != 0)
+                return false;
+        }
+    }
+    return true;
 }
 
 Paths matches(const Path& pattern) {
     glob_t found{};
-    const int code = glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found);
+    const bool listed = globbed(pattern, found);
     const std::unique_ptr<glob_t, void (*)(glob_t*)> release(&found, globfree);
-    if (code != 0 && code != GLOB_NOMATCH)
+    if (!listed || !canBeSought(pattern))
         throw FileError(
             fmt::format("{}: expected a pattern whose folders can be listed", pattern.string()));
     if (found.gl_pathc > kMaxSeriesFiles)

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "timeseries/sentence.h"
+
 namespace timeseries {
 
 namespace {
@@ -129,7 +131,7 @@ LoadResult StepLoader::load(std::size_t step) {
     } catch (const std::bad_alloc&) {
         return Failed{step, fmt::format("there is not enough memory for step {}", step)};
     } catch (const std::exception& e) {
-        return Failed{step, e.what()};
+        return Failed{step, sentenceOf(e)};
     }
 }
 

@@ -22,8 +22,9 @@ class ErrorPartsDesk : public testing::Test {
         desk_.frames(2);
     }
     std::optional<Rect> place() {
-        return errorPlace(desk_.theme(), desk_.layout(), desk_.performance,
-                          desk_.exploration.series());
+        return shownFigures(desk_.theme(), desk_.layout(), desk_.performance,
+                            desk_.exploration.series())
+            .error;
     }
     bool isOpen() const { return desk_.asked.errorParts; }
     tests::PanelsDesk desk_;

@@ -1,9 +1,11 @@
-// What is said of the picture over its lower right corner.
+// What is said of the picture below it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "app/panels/error_parts.h"
 #include "app/panels/figures.h"
+#include "app/panels/widgets.h"
+#include "tests/support/panels_desk.h"
 #include "tests/support/scripted_exploration.h"
 
 namespace app::panels {
@@ -67,13 +69,16 @@ TEST(Figures, StateTheErrorOnceItIsKnown) {
     tests::ScriptedExploration desk;
     Performance p = sevenPoints();
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    for (const auto& [error, text] : {std::pair(0.0004, "7 points drawn  ·  error below 0.1 %"),
-                                      {0.0041, "7 points drawn  ·  error about 0.4 %"},
-                                      {0.123, "7 points drawn  ·  error about 12 %"},
-                                      {kNan, "7 points drawn"}}) {
+    for (const auto& [error, text] : {std::pair(0.0004, "error below 0.1 %"),
+                                      {0.0041, "error about 0.4 %"},
+                                      {0.123, "error about 12 %"}}) {
         p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = error}}};
-        EXPECT_EQ(figuresOf(p, desk.exploration.series()).front(), text);
+        EXPECT_THAT(figuresOf(p, desk.exploration.series()),
+                    ElementsAre("7 points drawn", text, HasSubstr("7 selected"), testing::_));
     }
+    p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = kNan}}};
+    EXPECT_THAT(figuresOf(p, desk.exploration.series()),
+                ElementsAre("7 points drawn", HasSubstr("7 selected"), testing::_));
 }
 
 // Until this picture's own is known.
@@ -81,10 +86,10 @@ TEST(Figures, SayOfAnotherPicturesErrorThatItWas) {
     tests::ScriptedExploration desk;
     Performance p = sevenPoints();
     p.isErrorOfAnother = true;
-    for (const auto& [error, text] : {std::pair(0.0004, "7 points drawn  ·  error was below 0.1 %"),
-                                      {0.0041, "7 points drawn  ·  error was about 0.4 %"}}) {
+    for (const auto& [error, text] :
+         {std::pair(0.0004, "error was below 0.1 %"), {0.0041, "error was about 0.4 %"}}) {
         p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = error}}};
-        EXPECT_EQ(figuresOf(p, desk.exploration.series()).front(), text);
+        EXPECT_EQ(figuresOf(p, desk.exploration.series())[1], text);
     }
 }
 
@@ -96,20 +101,78 @@ TEST(Figures, SayThatTheErrorOfStillFewerPointsIsMore) {
     p.report.whole = false;
     p.isErrorOfAnother = true;
     p.errors = DepthErrors{.rungs = {{.rung = {Model::Points, 16}, .depth = 0.18}}};
-    EXPECT_THAT(figuresOf(p, desk.exploration.series()).front(), HasSubstr("error was above 18 %"));
+    EXPECT_THAT(figuresOf(p, desk.exploration.series())[1], HasSubstr("error was above 18 %"));
     EXPECT_THAT(errorLines(p).back(),
                 testing::AllOf(HasSubstr("above 18 %  1 of 64 points"), HasSubstr("as drawn")));
     EXPECT_EQ(errorPartLines(p)[1].what, "known once the picture rests");
 }
 
-// Where colours are mixed, the same line says what that costs.
+// Where colours are mixed, the same figure says what that costs.
 TEST(Figures, StateTheErrorOfLightWhereColoursAreMixed) {
     tests::ScriptedExploration desk;
     Performance p = sevenPoints();
     p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = 0.03, .order = 0.08}},
                            .ordering = Ordering::Mixed};
-    EXPECT_EQ(figuresOf(p, desk.exploration.series()).front(),
-              "7 points drawn  ·  error about 3 %, light 8 % (colours mixed)");
+    EXPECT_EQ(figuresOf(p, desk.exploration.series())[1],
+              "error about 3 %, light 8 % (colours mixed)");
+}
+
+std::vector<std::string> figuresIn(std::string_view line) {
+    constexpr std::string_view kApart = "  ·  ";
+    std::vector<std::string> figures;
+    for (std::size_t end = 0; end != std::string_view::npos;
+         line.remove_prefix(end + kApart.size())) {
+        end = line.find(kApart);
+        figures.emplace_back(line.substr(0, end));
+        if (end == std::string_view::npos) break;
+    }
+    return figures;
+}
+
+// Beside it figures are left out, none is cut, and where it stands it is pressed.
+TEST(Figures, KeepTheErrorWholeInEveryWindow) {
+    tests::PanelsDesk desk;
+    Performance p = sevenPoints();
+    p.report.cells = 19'684;
+    p.report.besideCells = 512;
+    p.report.counts->inClipBox = true;
+    p.errors = DepthErrors{.rungs = {{.rung = {Model::Cells}, .depth = 0.03, .order = 0.006}},
+                           .ordering = Ordering::ByDepth};
+    const std::string error = "error about 3 %, light 0.6 % (colours within a cell)";
+    ImFont& font = *desk.theme().small;
+    std::vector<std::string> all;
+    for (const std::string& line : figuresOf(p, desk.exploration.series()))
+        for (const std::string& figure : figuresIn(line)) all.push_back(figure);
+    for (float width = 640; width < 2000; width += 10) {
+        SCOPED_TRACE(width);
+        const Layout layout = layoutOf({width, 600}, 1);
+        const ShownFigures shown = shownFigures(desk.theme(), layout, p, desk.exploration.series());
+        EXPECT_LE(shown.lines.size(), statusLines(layout));
+        const float room = layout.status.size().x - 2 * kMargin;
+        for (const std::string& line : shown.lines) EXPECT_LE(widthOf(font, line), room) << line;
+        const auto has = [&](const std::string& line) { return line.find(error) != line.npos; };
+        const auto line = std::ranges::find_if(shown.lines, has);
+        ASSERT_NE(line, shown.lines.end());
+        EXPECT_THAT(figuresIn(*line), testing::IsSubsetOf(all));
+        const float left =
+            layout.status.min.x + kMargin + widthOf(font, line->substr(0, line->find(error)));
+        ASSERT_TRUE(shown.error);
+        EXPECT_NEAR(shown.error->min.x, left, 5);
+        EXPECT_NEAR(shown.error->max.x, left + widthOf(font, error), 5);
+        const auto lines = static_cast<float>(line - shown.lines.begin());
+        EXPECT_NEAR(shown.error->centre().y, layout.status.min.y + 13 + 18 * lines, 1);
+    }
+}
+
+// Where it has no room, the reason goes: the numbers stay.
+TEST(Figures, KeepTheErrorsNumbersInAWindowOfNoWidth) {
+    tests::PanelsDesk desk;
+    Performance p = sevenPoints();
+    p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = 0.03, .order = 0.08}},
+                           .ordering = Ordering::Mixed};
+    const Layout layout = layoutOf({520, 600}, 1);
+    const auto shown = shownFigures(desk.theme(), layout, p, desk.exploration.series());
+    EXPECT_THAT(shown.lines, testing::Contains("error about 3 %, light 8 %"));
 }
 
 TEST(Figures, PartsOfTheErrorAreTheWholeThenEachOnceItIsKnown) {

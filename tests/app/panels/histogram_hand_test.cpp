@@ -51,6 +51,25 @@ TEST_F(AnEnd, StopsWhereTheAxisDoesAndHoldsTheDatasOwn) {
     EXPECT_EQ(desk.exploration.counts()->selected, 64u);
 }
 
+// At the digits that a pixel tells apart: tenths.
+TEST_F(AnEnd, StopsShortOfAnotherRangeAtAValueThatIsShort) {
+    ASSERT_GT(axis().perPixel(), 0.1);
+    ASSERT_LT(axis().perPixel(), 1);
+    const auto dragged = [&](double from, double to) {
+        Explorer e = desk.exploration.explorer();
+        e.layers = {tests::layer("4:20,30:50")};
+        desk.exploration.edit(e);
+        desk.frames(2);
+        drag(from, axis().y(to));
+        return ranges().text();
+    };
+    EXPECT_EQ(dragged(20, 40), "4:29.9,30:50");
+    EXPECT_EQ(dragged(30, 10), "4:20,20.1:50");
+    // Between its ends all of it.
+    EXPECT_EQ(dragged(12, 40), "13.9:29.9,30:50");
+    EXPECT_EQ(dragged(40, 10), "4:20,20.1:40.1");
+}
+
 TEST_F(AnEnd, IsWhereTheHandIsWithinTheAxis) {
     drag(20, axis().y(40));
     EXPECT_NEAR(timeseries::toDouble(ranges().ranges()[0].hi.value), 40, axis().perPixel());

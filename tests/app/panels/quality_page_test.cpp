@@ -41,6 +41,35 @@ TEST(QualityPage, LetsTheMostThatAHeadsetDrawsBeChosen) {
                 testing::ElementsAre(Moving::Pace, Moving::Error, Moving::Fixed));
 }
 
+// All kinds of light that clicks on the page choose where it is off.
+std::set<render::Light> lightsByClicks(render::Order order) {
+    std::set<render::Light> chosen;
+    for (std::size_t control = 0, count = 1; control < count; ++control) {
+        tests::PanelsDesk desk(tests::World{}, {1280, 1800});
+        desk.interface.choices().page = Page::Quality;
+        for (const float share : {1 / 6.f, 3 / 6.f, 5 / 6.f}) {
+            Explorer e = desk.exploration.explorer();
+            e.light = render::Light::Off;
+            e.order = order;
+            desk.exploration.edit(e);
+            desk.frames(2);
+            count = focus().controls().size();
+            if (control >= count) break;
+            const Rect at = focus().controls()[control].at;
+            desk.click({at.min.x + share * at.size().x, at.centre().y});
+            if (!desk.exploration.shown()) break;
+            chosen.insert(desk.exploration.explorer().light);
+        }
+    }
+    return chosen;
+}
+
+TEST(QualityPage, LetsLightBeChosenWhereCellsAreLitAlone) {
+    using enum render::Light;
+    EXPECT_THAT(lightsByClicks(render::Order::BackToFront), testing::ElementsAre(Off, Soft, Full));
+    EXPECT_THAT(lightsByClicks(render::Order::None), testing::ElementsAre(Off));
+}
+
 TEST(AskedOfMoving, IsTheRungThatIsChosenOrKeepsTheError) {
     DepthErrors errors;
     errors.rungs = {{.rung = {Model::Cells}, .depth = 0.002},

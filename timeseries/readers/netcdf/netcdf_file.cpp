@@ -135,9 +135,16 @@ std::vector<bool> NetcdfFile::triedTogether(std::span<const std::filesystem::pat
 }
 
 void NetcdfFile::open() {
-    // Absolute: the library takes what looks like a URL for one.
-    check(nc_open(std::filesystem::absolute(path_).c_str(), NC_NOWRITE, &id_), "",
-          "a whole netCDF file, whose links lead somewhere");
+    // Absolute: the library takes what looks like a URL for one. And a backslash for a slash.
+    std::filesystem::path named = std::filesystem::absolute(path_);
+    int file = -1;
+    if (named.string().find('\\') != std::string::npos) {
+        file = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+        named = fmt::format("/proc/self/fd/{}", file);
+    }
+    const int status = nc_open(named.c_str(), NC_NOWRITE, &id_);
+    if (file >= 0) ::close(file);
+    check(status, "", "a whole netCDF file, whose links lead somewhere");
     try {
         // While it shares what is read of it.
         elsewhere_ = hdf5Elsewhere(path_, [&](std::int64_t dataset, const char* name) {
