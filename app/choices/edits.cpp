@@ -220,9 +220,8 @@ std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
             "clip '{}': the points of this grid lie in no plane: give a range, from:to", text));
     } else if (lo == hi && std::isfinite(lo)) {
         // What reads as an end of the axis may lie beyond it.
-        const auto readsAs = [&](double end) {
-            return sideText(lo, digits) == sideText(end, digits);
-        };
+        const std::string typed = sideText(lo, digits);
+        const auto readsAs = [&](double end) { return sideText(end, digits) == typed; };
         if ((least <= lo && lo <= most) || readsAs(least) || readsAs(most))
             lo = hi = grid.nearestPlane(axis, lo);
     } else {

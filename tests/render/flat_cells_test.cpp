@@ -78,7 +78,8 @@ TEST(FlatCells, ALayerIsPassedOnceHoweverFlatItIs) {
                                              placedOneByOne ? ", by tetrahedra" : ""));
                     EXPECT_LT(tests::cells::relativeL2(is, wanted), layer.error);
                     const double mass = std::accumulate(wanted.begin(), wanted.end(), 0.0);
-                    EXPECT_NEAR(std::accumulate(is.begin(), is.end(), 0.0), mass, 0.1 * mass);
+                    EXPECT_NEAR(std::accumulate(is.begin(), is.end(), 0.0), mass,
+                                layer.error * mass);
                 }
             }
 }

@@ -120,7 +120,8 @@ TEST(SampledError, OfAllRaysIsTheirMean) {
         ASSERT_NEAR(truth.depth()[i], opticalDepthPerWeight(0.3) * mean[i], 1e-12) << i;
 }
 
-// Of pictures that are right, nearly and not, a range thinner than a pixel among them.
+// Of pictures that are right, nearly and not, a range thinner than a pixel among them. The rest may
+// move it by a fiftieth, give or take; of what hardly any ray meets, three times that.
 TEST(SampledError, IsToldByAQuarterOfTheRaysWhereTheRestWouldNotChangeIt) {
     const DepthAt wrong = depthFrom(depthOf(CellWorld(waves(), {"0.3:1.2"})), kView.size);
     std::size_t enough = 0, tooFew = 0;
@@ -140,7 +141,7 @@ TEST(SampledError, IsToldByAQuarterOfTheRaysWhereTheRestWouldNotChangeIt) {
             }
             ++enough;
             const double error = all.apart(depth, all.depth());
-            EXPECT_NEAR(told, error, 0.03 * error) << range;
+            EXPECT_NEAR(told, error, 0.06 * error) << range;
         }
     }
     EXPECT_GE(enough, 3u);
