@@ -7,7 +7,7 @@
 
 #include "render/splat/tile_splatter.h"
 #include "tests/support/meshes.h"
-#include "tests/support/scenes.h"
+#include "tests/support/splat_world.h"
 
 namespace render {
 namespace {
@@ -62,32 +62,22 @@ TEST(DrawnPoints, OfAnotherMeshAreNotThoseOfTheOneBefore) {
     expectKept(drawn, *grid->mesh(), 0, {7, 70, 133});
 }
 
-// Of a step whose points are placed by a mesh, all between a tenth and half.
-struct SlantedWorld {
-    explicit SlantedWorld(double by, unsigned seed)
-        : step(tests::noise(tests::curvilinear({9, 8, 7},
-                                               [&](double i, double j, double k) {
-                                                   return glm::dvec3(i + by * j, j, k + by * i);
-                                               }),
-                            seed)) {
-        scene.layers.push_back(
-            {step.select(timeseries::RangeSet(std::vector{timeseries::Range{{0.1}, {0.5}}})),
-             {ByValue{{}, 0.1, 0.5}, 0.3}});
+// Points that a mesh places, all between a tenth and half.
+struct SlantedWorld : splat_world::World {
+    SlantedWorld(double by, unsigned seed)
+        : World(tests::noise(tests::curvilinear({9, 8, 7},
+                                                [&](double i, double j, double k) {
+                                                    return glm::dvec3(i + by * j, j, k + by * i);
+                                                }),
+                             seed),
+                timeseries::RangeSet(std::vector{timeseries::Range{{0.1}, {0.5}}})) {
+        scene.layers[0].style.color = ByValue{{}, 0.1, 0.5};
+        scene.order = Order::BackToFront;
     }
-    SlantedWorld(const SlantedWorld&) = delete;  // refers to itself
-    timeseries::SortedStep step;
-    PlacedPoints placed{step.grid()};
-    Scene scene{.step = step,
-                .placed = placed,
-                .layers = {},
-                .footprint = {},
-                .order = Order::BackToFront,
-                .clip = {}};
     std::vector<float> sum(double azimuth, TileMemory& memory) const {
-        const View view =
-            tests::lookFrom({3 * std::sin(azimuth), -3 * std::cos(azimuth), 0.5}, {64, 48}, 0.4);
-        TileSum tiles(scene, SortWhenDrawn{{3 * std::sin(azimuth), -3 * std::cos(azimuth), 0.5}},
-                      view, Channels::Over, 0, {}, 2, std::move(memory));
+        const glm::dvec3 eye(3 * std::sin(azimuth), -3 * std::cos(azimuth), 0.5);
+        TileSum tiles(scene, SortWhenDrawn{eye}, tests::lookFrom(eye, {64, 48}), Channels::Over, 0,
+                      {}, 2, std::move(memory));
         tiles.add(std::numeric_limits<std::uint64_t>::max());
         const std::vector<float> plane(tiles.plane().begin(), tiles.plane().end());
         memory = tiles.takeMemory();

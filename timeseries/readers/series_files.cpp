@@ -1,16 +1,13 @@
 #include "timeseries/readers/series_files.h"
 
 #include <fmt/format.h>
-#include <glob.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <map>
-#include <memory>
 
 #include "timeseries/readers/amrex/amrex_header.h"
+#include "timeseries/readers/file_pattern.h"
 #include "timeseries/readers/foam/foam_case.h"
 #include "timeseries/readers/netcdf/snapshot_files.h"
 #include "timeseries/readers/other_formats.h"
@@ -293,76 +290,12 @@ ExpandedSeries folder(const Path& folder) {
     return result;
 }
 
-bool hasWildcards(const Path& path) {
-    return path.string().find_first_of("*?[") != std::string::npos;
-}
-
-bool isPattern(const Path& path) {
-    std::error_code ignored;
-    return hasWildcards(path) && !std::filesystem::exists(path, ignored);
-}
-
-// False where some folder cannot be listed; one that is not there, as where a link leads nowhere,
-// has no files. REQUIRES: `found` is empty; it is to be freed.
-bool globbed(const Path& pattern, glob_t& found) {
-    const auto isRefused = [](const char*, int error) {
-        return static_cast<int>(error != ENOENT && error != ENOTDIR && error != ELOOP);
-    };
-    const int code = glob(pattern.c_str(), GLOB_NOSORT, isRefused, &found);
-    return code == 0 || code == GLOB_NOMATCH;
-}
-
-// Whether what is in the pattern's folders can be asked for: a name without wildcards is not looked
-// for in a list of all, and where it cannot be seen it is not there for glob().
-bool canBeSought(const Path& pattern) {
-    for (Path folders = pattern.parent_path(); hasWildcards(folders);
-         folders = folders.parent_path()) {
-        glob_t found{};
-        const bool listed = globbed(folders, found);
-        const std::unique_ptr<glob_t, void (*)(glob_t*)> release(&found, globfree);
-        if (!listed) return false;
-        for (const char* each : std::span(found.gl_pathv, found.gl_pathc)) {
-            std::error_code ignored;
-            if (std::filesystem::is_directory(each, ignored) && access(each, X_OK) != 0)
-                return false;
-        }
-    }
-    return true;
-}
-
-Paths matches(const Path& pattern) {
-    glob_t found{};
-    const bool listed = globbed(pattern, found);
-    const std::unique_ptr<glob_t, void (*)(glob_t*)> release(&found, globfree);
-    if (!listed || !canBeSought(pattern))
-        throw FileError(
-            fmt::format("{}: expected a pattern whose folders can be listed", pattern.string()));
-    if (found.gl_pathc > kMaxSeriesFiles)
-        throw FileError(fmt::format("{}: expected a pattern of at most {} files, found {}",
-                                    pattern.string(), kMaxSeriesFiles, found.gl_pathc));
-    Paths files;
-    for (std::size_t i = 0; i < found.gl_pathc; ++i) {
-        std::error_code ignored;
-        const Path path = found.gl_pathv[i];
-        if (!std::filesystem::is_directory(path, ignored) || isZarr(path) || isFoamCase(path) ||
-            isAmrex(path))
-            files.emplace_back(found.gl_pathv[i]);
-    }
-    if (files.empty())
-        throw FileError(fmt::format("{}: no file has such a name", pattern.string()));
-    std::ranges::sort(files, [](const Path& a, const Path& b) {
-        return a.parent_path() == b.parent_path() ? nameLess(a, b)
-                                                  : a.parent_path() < b.parent_path();
-    });
-    return files;
-}
-
 }  // namespace
 
 ExpandedSeries expandSeries(std::span<const Path> named) {
     if (named.size() == 1) {
         const Path& one = named.front();
-        if (isPattern(one)) return together(matches(one), kByName);
+        if (isPattern(one)) return together(filesOfPattern(one), kByName);
         if (isFoamCase(one)) return {{one}, {}, "", {}};
         if (isAmrex(one)) return member(amrexFolderOf(one), Members::Plotfiles);
         std::error_code ignored;
@@ -381,7 +314,7 @@ ExpandedSeries expandSeries(std::span<const Path> named) {
     Paths files;
     for (const Path& path : named) {
         if (isPattern(path)) {
-            const Paths found = matches(path);
+            const Paths found = filesOfPattern(path);
             files.insert(files.end(), found.begin(), found.end());
         } else {
             files.push_back(path);
