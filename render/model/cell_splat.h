@@ -9,9 +9,9 @@
 //   (Q(b) - Q(a)) / (b - a),  Q(x) = 0, x^2 / 2, x - 1/2 below 0, between, and above 1,
 // and of a range the difference of the means of two ramps. An end that the cell does not cross is
 // left out, or a plateau at the end's value would count half. What a ramp has beyond the values of
-// the cell is in others, of which those that the range does not reach are not drawn: where cells
-// are flat, so that a pixel's width of the field holds more than a cell, a ramp is no wider than
-// keeps it within them (widestRamp).
+// the cell is in others, of which those that the range does not reach are not drawn. So where cells
+// are flat, a pixel's steps lead along them, not into the next (alongCell), and no ramp is wider
+// than keeps it within the values of its cell (widestRamp).
 //
 // A colour by value is the mean of the map over the values that a pixel sees of a cell, or where it
 // hides what is behind, over those of its front (shareFromFront): the colour of their mean would be
@@ -56,6 +56,8 @@ inline constexpr double kLeastChange = 1e-5;
 inline constexpr double kLeastDifference = 1e-4;
 // Of half the cell's own change: what is crossed is no thinner, or rounding would show.
 inline constexpr double kThinnest = 1e-2;
+// Of a cell, how much of it a pixel may step aside for it not to be flat, and to be all flat.
+inline constexpr double kOrdinaryStep = 0.25, kFlatStep = 0.5;
 // Of what f is in a cell, [-1, 1], how wide a ramp may always be, for a smooth edge.
 inline constexpr double kNarrowRamp = 0.125;
 // And about an end that two cells share: what a third of a cell changes, if that is along one axis.
@@ -76,7 +78,9 @@ struct CellSplat {
     Vec2 lo{}, hi{};  // offsets from there between which the cell lies, or a little more
     // In units of the cell, [-1/2, 1/2] in it: the place there, and that ray a unit of depth.
     Vec3 at{}, ray{};
-    Vec3 perSize{};  // units of the cell a length in axis coordinates, signed
+    Vec3 right{}, up{};  // a pixel's steps, as they are seen of this cell (alongCell)
+    Real widest{};       // ramp
+    Vec3 perSize{};      // units of the cell a length in axis coordinates, signed
     // The field is reference + extent f, f in [-1, 1] at the corners being the sum of these times
     // 1, u, v, w, uv, uw, vw, uvw at a place (u, v, w).
     std::array<Real, 8> f{};
@@ -188,18 +192,45 @@ bool seeField(CellSplat<Real>& s, const ValuedCell& cell, double unitLength) {
     return seeRange(s, cell, *lo, *hi, 2 * glm::length(unitLength / (cell.to - cell.from)));
 }
 
-// How wide a ramp about each end of the range may be. An end at the cell's least or greatest value
-// is its neighbour's as well, which takes the ramp's other half.
+// How wide a ramp about each end of the range may be, of a cell that is so flat. An end at the
+// cell's least or greatest value is its neighbour's as well, which takes the ramp's other half.
 template <typename Real, typename Splat>
-Real widestRamp(const Splat& s, bool crossesLeast, bool crossesMost) {
-    Real widest = std::numeric_limits<Real>::max();
+Real widestRamp(const Splat& s, bool crossesLeast, bool crossesMost, Real flat) {
+    constexpr Real kAny = Real(1e18);  // its square is a float
+    if (!(flat > 0)) return kAny;
+    Real widest = kAny;
     const auto limit = [&](Real end) {
         const Real beside = std::abs(1 - std::abs(end));
         widest = std::min(widest, beside > Real(kThinnest) ? 2 * beside : Real(kSharedRamp));
     };
     if (crossesLeast) limit(s.least);
     if (crossesMost) limit(s.most);
-    return std::max(widest, Real(kNarrowRamp));
+    return std::max(widest, Real(kNarrowRamp)) / flat;
+}
+
+// Turns a pixel's steps to the right and up, which are at right angles to the ray, along a flat
+// cell, as the way through it moves from pixel to pixel: at right angles to the ray where such
+// cells are cubes. Lengths are of the cell, or shares of a tetrahedron's corners, a unit of depth;
+// `depth` is the cell's. Returns how flat it is, from 0, where nothing turns, to 1.
+template <typename Vec>
+double alongCell(const Vec& ray, double depth, Vec& right, Vec& up) {
+    double widest = 0, square = 0, ofRight = 0, ofUp = 0;
+    for (int a = 0; a < Vec::length(); ++a) {
+        const double r = ray[a], x = right[a], y = up[a];
+        widest = std::max({widest, std::abs(x), std::abs(y)});
+        square += r * r;
+        ofRight += r * x;
+        ofUp += r * y;
+    }
+    const double flat =
+        std::clamp((depth * widest - kOrdinaryStep) / (kFlatStep - kOrdinaryStep), 0.0, 1.0);
+    if (!(flat > 0 && square > 0)) return 0;
+    using Real = typename Vec::value_type;
+    for (int a = 0; a < Vec::length(); ++a) {
+        right[a] = static_cast<Real>(right[a] - flat * (ofRight / square) * ray[a]);
+        up[a] = static_cast<Real>(up[a] - flat * (ofUp / square) * ray[a]);
+    }
+    return flat;
 }
 
 // Of a linear piece that is worth so much W, from value to value, over a pixel in which the field
@@ -269,6 +300,10 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
         s.hi = -s.lo;
     }
     s.ray = Vec3(rays.along(s.centre) / size);
+    s.right = Vec3(rays.perPixelX / size);
+    s.up = Vec3(rays.perPixelY / size);
+    const double flat = cell::alongCell(s.ray, static_cast<double>(s.base), s.right, s.up);
+    s.widest = cell::widestRamp(s, s.crossesLeast, s.crossesMost, static_cast<Real>(flat));
     return s;
 }
 
@@ -310,9 +345,9 @@ CellFragment<Real> fragmentOn(const PointsView& view, const CellSplat<Real>& s,
         const Real way = half * (Real(2 * k) / kPieces - 1);
         values[k] = value + way * (first + way * (second + way * third));
     }
-    const Vec2 across = (s.base + depth) * Vec2(glm::dot(gradient, x), glm::dot(gradient, y));
-    const Real width = std::clamp(glm::length(across), Real(2 * kLeastChange),
-                                  cell::widestRamp<Real>(s, s.crossesLeast, s.crossesMost));
+    const Vec2 across =
+        (s.base + depth) * Vec2(glm::dot(gradient, s.right), glm::dot(gradient, s.up));
+    const Real width = std::clamp(glm::length(across), Real(2 * kLeastChange), s.widest);
     Real weight = 0, sum = 0;
     for (std::size_t k = 0; k < kPieces; ++k) {
         const Real begin = values[k], end = values[k + 1];

@@ -66,6 +66,8 @@ struct TetSplat {
     // the right and up a unit of depth; and the field, as f, likewise.
     std::array<Real, 4> at{}, ray{}, x{}, y{};
     Real f{}, fRay{}, fX{}, fY{};
+    Real across{};  // of f, a pixel, a unit of depth away
+    Real widest{};  // ramp
     // The field is reference + extent f, f in [-1, 1].
     double reference = 0, extent = 0;
     Real least{}, most{};
@@ -144,23 +146,27 @@ TetSplat<Real> tetSplatAt(const PointsView& view, const ValuedTet& tet) {
         s.hi = -s.lo;
     }
     const glm::dvec3 ray = rays.along(s.centre);
-    double value = 0, alongRay = 0, alongX = 0, alongY = 0;
+    const auto changeOf = [&](const glm::dvec3& way) {  // of the shares
+        return glm::dvec4(glm::dot(slopes[0], way), glm::dot(slopes[1], way),
+                          glm::dot(slopes[2], way), glm::dot(slopes[3], way));
+    };
+    const glm::dvec4 field(f[0], f[1], f[2], f[3]), shares(at[0], at[1], at[2], at[3]);
+    const glm::dvec4 r = changeOf(ray);
+    glm::dvec4 x = changeOf(rays.perPixelX), y = changeOf(rays.perPixelY);
     for (std::size_t i = 0; i < 4; ++i) {
-        const double r = glm::dot(slopes[i], ray), x = glm::dot(slopes[i], rays.perPixelX),
-                     y = glm::dot(slopes[i], rays.perPixelY);
+        const auto k = static_cast<int>(i);
         s.at[i] = static_cast<Real>(at[i]);
-        s.ray[i] = static_cast<Real>(r);
-        s.x[i] = static_cast<Real>(x);
-        s.y[i] = static_cast<Real>(y);
-        value += f[i] * at[i];
-        alongRay += f[i] * r;
-        alongX += f[i] * x;
-        alongY += f[i] * y;
+        s.ray[i] = static_cast<Real>(r[k]);
+        s.x[i] = static_cast<Real>(x[k]);
+        s.y[i] = static_cast<Real>(y[k]);
     }
-    s.f = static_cast<Real>(value);
-    s.fRay = static_cast<Real>(alongRay);
-    s.fX = static_cast<Real>(alongX);
-    s.fY = static_cast<Real>(alongY);
+    s.f = static_cast<Real>(glm::dot(field, shares));
+    s.fRay = static_cast<Real>(glm::dot(field, r));
+    s.fX = static_cast<Real>(glm::dot(field, x));
+    s.fY = static_cast<Real>(glm::dot(field, y));
+    const double flat = cell::alongCell(r, static_cast<double>(s.base), x, y);
+    s.across = static_cast<Real>(std::hypot(glm::dot(field, x), glm::dot(field, y)));
+    s.widest = cell::widestRamp(s, s.crossesLeast, s.crossesMost, static_cast<Real>(flat));
     return s;
 }
 
@@ -194,9 +200,8 @@ CellFragment<Real> fragmentOn(const PointsView& view, const TetSplat<Real>& s,
     const Real value = s.f + s.base * shift, change = s.fRay + shift;
     const Real begin = value + from * change, end = value + to * change;
     if (!s.crossesLeast && !s.crossesMost) return {whole, (begin + end) / 2};
-    const Real width = std::clamp((s.base + (from + to) / 2) * glm::length(Vec2(s.fX, s.fY)),
-                                  Real(2 * kLeastChange),
-                                  cell::widestRamp<Real>(s, s.crossesLeast, s.crossesMost));
+    const Real width =
+        std::clamp((s.base + (from + to) / 2) * s.across, Real(2 * kLeastChange), s.widest);
     const CellFragment<Real> part = cell::withinRange(
         s, begin, end, width, std::max(whole, std::abs(end - begin) * s.perRange));
     return part.weight > 0 ? part : CellFragment<Real>{};

@@ -56,8 +56,8 @@ void main() {
     float w = whole, width = 0.0;
     float mean = value, lowest = min(first, last), highest = max(first, last);
     if (crossesLeast() || crossesMost()) {
-        const vec2 across = (base + depth) * vec2(dot(gradient, x), dot(gradient, y));
-        width = clamp(length(across), 2.0 * kLeastChange, widestRamp());
+        const vec2 across = (base + depth) * vec2(dot(gradient, x - ray.w * ray.xyz), dot(gradient, y - perSize.w * ray.xyz));
+        width = clamp(length(across), 2.0 * kLeastChange, range.w);
         float weighted = 0.0, end = first;
         w = 0.0;
         lowest = 2.0;  // more than f can be

@@ -7,8 +7,8 @@ layout(std430, binding = 0) readonly buffer Pieces { Piece pieces[]; };
 layout(binding = 0) uniform samplerBuffer axisSides;  // per axis and cell: middle, size
 
 layout(location = 4) flat out vec4 atAndSteep;
-layout(location = 5) flat out vec4 ray;
-layout(location = 6) flat out vec4 perSize;
+layout(location = 5) flat out vec4 ray;      // w: what a pixel's step to the right takes back of it
+layout(location = 6) flat out vec4 perSize;  // w: and up
 layout(location = 7) flat out vec4 low;
 layout(location = 8) flat out vec4 high;
 
@@ -55,13 +55,20 @@ void main() {
         if (any(greaterThanEqual(lo, hi))) return;
     }
     centreAndBase = vec4(centre, base, 0.0);
-    range = vec4(p.least, p.most, p.perRange, 0.0);
     map = vec4(p.mapPlace, p.mapPerValue, 0.0, 0.0);
     kind = uvec2(p.kind >> 4 & 3u, p.kind >> 8);
     atAndSteep = vec4(at, p.steep);
     const vec3 along = view.rayAxis.xyz + centre.x * view.perPixelX.xyz + centre.y * view.perPixelY.xyz;
+    const vec3 right = view.perPixelX.xyz / size, up = view.perPixelY.xyz / size;
     ray = vec4(along / size, 0.0);
-    perSize = vec4(1.0 / size, 0.0);
+    const vec3 steps = max(abs(right), abs(up));
+    const float flatness = flatnessOf(base * max(steps.x, max(steps.y, steps.z)));
+    const float longest = max(abs(ray.x), max(abs(ray.y), abs(ray.z)));
+    const vec3 direction = ray.xyz / longest;
+    const vec2 back = flatness / (longest * dot(direction, direction)) * vec2(dot(direction, right), dot(direction, up));
+    ray.w = back.x;
+    perSize = vec4(1.0 / size, back.y);
+    range = vec4(p.least, p.most, p.perRange, widestRamp(p.least, p.most, kind.x, flatness));
     low = p.low;
     high = p.high;
     putAt(lo, hi);

@@ -13,7 +13,7 @@ layout(binding = 1) uniform sampler2D colorMaps;    // a row a layer, linear col
 layout(binding = 2) uniform sampler2D opaqueDepth;  // what hides cells
 
 layout(location = 0) flat in vec4 centreAndBase;
-layout(location = 1) flat in vec4 range;  // least, most, per range
+layout(location = 1) flat in vec4 range;  // least, most, per range; the widest ramp
 layout(location = 2) flat in vec4 map;    // place of f = 0, per f
 layout(location = 3) flat in uvec2 kind;
 
@@ -24,7 +24,7 @@ layout(location = 0) out vec4 sum;
 #endif
 
 const int kMaxLayers = 8;
-const float kLeastChange = 1e-5, kLeastStep = 1e-12, kNarrowRamp = 0.125, kSharedRamp = 2.0 / 3.0, kThinnest = 1e-2;
+const float kLeastChange = 1e-5, kLeastStep = 1e-12;
 const float kAmbient = 0.25, kEven = 0.625, kSpecular = 0.35, kLow = 0.25;
 
 // 1 - e^-x; the series where the difference would cancel (its error there is below 1e-9).
@@ -43,14 +43,6 @@ float meanRamp(float a, float b) {
 bool crossesLeast() { return (kind.x & 1u) != 0u; }
 bool crossesMost() { return (kind.x & 2u) != 0u; }
 
-// How wide a pixel of values may be.
-float widestRamp() {
-    const vec2 beside = abs(1.0 - abs(range.xy));
-    float widest = 3e38;
-    if (crossesLeast()) widest = min(widest, beside.x > kThinnest ? 2.0 * beside.x : kSharedRamp);
-    if (crossesMost()) widest = min(widest, beside.y > kThinnest ? 2.0 * beside.y : kSharedRamp);
-    return max(widest, kNarrowRamp);
-}
 // Of a piece between these values, what lies in the range over a pixel of this width of values.
 float shareIn(float begin, float end, float perWidth) {
     float share = 1.0;

@@ -29,7 +29,7 @@ void main() {
     const float first = value + from * change, last = value + to * change;
     float w = whole, front = first, back = last, width = 0.0;
     if (crossesLeast() || crossesMost()) {
-        width = clamp((base + 0.5 * (from + to)) * length(field.zw), 2.0 * kLeastChange, widestRamp());
+        width = clamp((base + 0.5 * (from + to)) * centreAndBase.w, 2.0 * kLeastChange, range.w);
         w = shareIn(first, last, 1.0 / width) * max(whole, abs(last - first) * range.z);
         if (!(w > 0.0)) discard;
         const vec2 ends = withinRange(vec2(min(first, last), max(first, last)) + vec2(-0.5, 0.5) * width);

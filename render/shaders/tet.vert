@@ -65,14 +65,19 @@ void main() {
     } else {
         at = along(view.eye.xyz - first, slopes) + vec4(1.0, 0.0, 0.0, 0.0);
     }
-    centreAndBase = vec4(centre, base, 0.0);
-    range = vec4(p.least, p.most, p.perRange, 0.0);
     map = vec4(p.mapPlace, p.mapPerValue, 0.0, 0.0);
     kind = uvec2(p.kind >> 4 & 3u, p.kind >> 8);
     ray = along(view.rayAxis.xyz + centre.x * view.perPixelX.xyz + centre.y * view.perPixelY.xyz, slopes);
     right = along(view.perPixelX.xyz, slopes);
     up = along(view.perPixelY.xyz, slopes);
     field = vec4(dot(f, at), dot(f, ray), dot(f, right), dot(f, up));
+    const vec4 steps = max(abs(right), abs(up));
+    const float flatness = flatnessOf(base * max(max(steps.x, steps.y), max(steps.z, steps.w)));
+    const float longest = max(max(abs(ray.x), abs(ray.y)), max(abs(ray.z), abs(ray.w)));
+    const vec4 direction = ray / longest;
+    const vec2 back = flatness / (longest * dot(direction, direction)) * vec2(dot(direction, right), dot(direction, up));
+    centreAndBase = vec4(centre, base, length(field.zw - field.y * back));
+    range = vec4(p.least, p.most, p.perRange, widestRamp(p.least, p.most, kind.x, flatness));
     const vec3 gradient = f.y * slopes[0] + f.z * slopes[1] + f.w * slopes[2] -
                           f.x * (slopes[0] + slopes[1] + slopes[2]);
     const float per = 1.0 / max(length(gradient), 1e-30);

@@ -108,9 +108,7 @@ HWY_INLINE void followField(Lanes lanes, const CellView& view, const TileRoom& r
     cell.follow(r, values);
     for (std::size_t k = 0; k <= kPieces; ++k) hn::Store(values[k], lanes, block.values[k]);
     if constexpr (kCrossed)
-        hn::Store(
-            cell.acrossPixel2(r, cell::widestRamp<float>(c, c.crossesLeast(), c.crossesMost())),
-            lanes, block.width);
+        hn::Store(cell.acrossPixel2(r), lanes, block.width);
     else
         hn::Store(r.value, lanes, block.value);
     if constexpr (kLit != Lit::No) {

@@ -74,13 +74,19 @@ template <class Lanes>
 struct CellLanes {
     using V = hn::Vec<Lanes>;
     Lanes lanes;
-    V base, x[3], y[3], f[8];
+    V base, right[3], up[3], f[8];  // steps as of a CellSplat
+    float widest;
     CellLanes(Lanes l, const CellView& view, const SeenCell& c)
         : lanes(l), base(hn::Set(l, c.base)) {
+        const auto inCell = [&](const std::array<float, 3>& v) {
+            return glm::vec3(v[0] * c.perSize[0], v[1] * c.perSize[1], v[2] * c.perSize[2]);
+        };
+        glm::vec3 x = inCell(view.perPixelX), y = inCell(view.perPixelY);
+        const double flat = cell::alongCell(glm::vec3(c.ray[0], c.ray[1], c.ray[2]), c.base, x, y);
+        widest = cell::widestRamp(c, c.crossesLeast(), c.crossesMost(), static_cast<float>(flat));
         for (std::size_t a = 0; a < 3; ++a) {
-            const V perSize = hn::Set(l, c.perSize[a]);
-            x[a] = hn::Mul(perSize, hn::Set(l, view.perPixelX[a]));
-            y[a] = hn::Mul(perSize, hn::Set(l, view.perPixelY[a]));
+            right[a] = hn::Set(l, x[static_cast<int>(a)]);
+            up[a] = hn::Set(l, y[static_cast<int>(a)]);
         }
         for (std::size_t k = 0; k < 8; ++k) f[k] = hn::Set(l, c.f[k]);
     }
@@ -119,11 +125,10 @@ struct CellLanes {
         ends(1, values[0], values[3]);
         ends(1 / 3.0f, values[1], values[2]);
     }
-    // The square of the width of the ramp that a pixel makes of an end of the range, no more than
-    // that of `widest`.
-    HWY_INLINE V acrossPixel2(const RayParts<Lanes>& r, float widest) const {
+    // The square of the width of the ramp that a pixel makes of an end of the range.
+    HWY_INLINE V acrossPixel2(const RayParts<Lanes>& r) const {
         constexpr float kLeast = static_cast<float>(2 * kLeastChange);
-        const V alongX = dot(r.gradient, x), alongY = dot(r.gradient, y);
+        const V alongX = dot(r.gradient, right), alongY = dot(r.gradient, up);
         const V depth = hn::Add(base, r.depth);
         const V change2 =
             hn::Mul(hn::Mul(depth, depth), hn::MulAdd(alongX, alongX, hn::Mul(alongY, alongY)));

@@ -132,7 +132,8 @@ std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::
     c.fRay = s.fRay;
     c.fRight = s.fX;
     c.fUp = s.fY;
-    c.across = std::hypot(s.fX, s.fY);
+    c.across = s.across;
+    c.widest = s.widest;
     const double steepness = std::max(s.steepness, 1e-30);
     c.perSteepness = static_cast<float>(1 / steepness);
     c.certainty = static_cast<float>(

@@ -104,6 +104,7 @@ static_assert(kF + 8 == kFloats);
 struct SeenTet : SeenPiece {
     std::array<float, 4> at, ray, right, up;  // the corners' shares
     float f, fRay, fRight, fUp, across;       // of a pixel, a unit of depth away
+    float widest;                             // ramp
     float perSteepness, certainty;            // of light
     // Of a lamp in the world: its direction's part of the gradient's, and of the ray at the centre.
     float towards, ofRay;

@@ -69,8 +69,6 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
     const V depthB = set(static_cast<float>(view.depthB));
     const V base = set(c.base), near = set(view.near - c.base), half = set(0.5f);
     const V stepsX = pixels.columns(lanes), stepsY = pixels.rows(lanes);
-    [[maybe_unused]] const auto widest =
-        cell::widestRamp<float>(c, c.crossesLeast(), c.crossesMost());
     for (int y = least.y; y < most.y; y += kRows) {
         const V oy = hn::Add(set(c.oy + static_cast<float>(y - c.y)), stepsY);
         for (int x = least.x; x < most.x; x += kColumns) {
@@ -98,7 +96,7 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                 const V first = front, last = back;
                 const V width = hn::Min(hn::Max(hn::Mul(hn::Add(base, middle), set(c.across)),
                                                 set(static_cast<float>(2 * kLeastChange))),
-                                        set(widest));
+                                        set(c.widest));
                 // As if along the view axis: the ray's own length is a factor later.
                 if (c.perRange > 0)
                     t = hn::Max(t, hn::Mul(hn::Mul(perRange, reciprocal(lanes, factor)),

@@ -57,6 +57,26 @@ TEST_F(GlCellsOf, RangesAtTheValuesOfPointsAreTheProcessors) {
     }
 }
 
+// Many of which a pixel's ray passes, so that what it sees beside itself is that along them.
+TEST_F(GlCellsOf, FlatOnesAreTheProcessors) {
+    const auto bent = [](const glm::dvec3& p) { return p.z + 0.4 * std::sin(0.6 * p.x); };
+    for (const double height : {0.3, 0.02, 1e-3}) {
+        const auto places = [&](double i, double j, double k) {
+            return glm::dvec3(i, j, k * height);
+        };
+        const auto upright = std::make_shared<Grid>(
+            std::array{tests::axis(9), tests::axis(9), tests::axis(9, 0, height)});
+        for (const auto& grid :
+             {std::shared_ptr<const Grid>(upright), tests::curvilinear({9, 9, 9}, places)})
+            for (const char* range : {"3:6", "4.52:4.53"}) {
+                CellWorld world(sampled(grid, bent), {range});
+                world.scene.opacityPer = OpacityPer::Crossing;
+                SCOPED_TRACE(testing::Message() << range << " of " << height);
+                expectTheProcessors(world.scene, kOutside, 1e-3);
+            }
+    }
+}
+
 // Whose pixels' rays run along faces between cells.
 TEST_F(GlCellsOf, PicturesAlongAnAxisAreTheProcessors) {
     const auto one = [](const glm::dvec3&) { return 3.0; };

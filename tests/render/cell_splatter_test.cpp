@@ -174,14 +174,15 @@ TEST(CellSplatter, BesideMissingPointsTheFieldGoesOn) {
                                      return at.y < 4 ? kNan : double(at.x);
                                  }),
                    {"2.3:2.4"});
-    // From the side of the surface; what is there is as it is without what is missing.
+    // From the side of the surface; what is there is as it is without what is missing, but that a
+    // pixel is wider beside an octant than beside its cell.
     const View view = tests::lookFrom({3, 0.2, 0.1}, {64, 64});
     const std::vector<float> all = drawn(whole.scene, view), some = drawn(half.scene, view);
     int there = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (!(some[i] > 0.9f * all[i]) || all[i] == 0) continue;  // at the end, and beyond it
         ++there;
-        ASSERT_NEAR(some[i], all[i], 1e-4 * all[i]) << i;
+        ASSERT_NEAR(some[i], all[i], 5e-3 * all[i]) << i;
     }
     double sumAll = 0, sumSome = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -129,13 +129,13 @@ double errorOf(const CellWorld& world, const View& view, OpacityPer per = Opacit
 }
 
 // Of thin ranges, whose lengths are far less than their crossings, and of wide ones, of which both
-// are one. By one ray a pixel of a quarter of a cell.
+// are one.
 TEST(CrossingTruth, IsWhatCellsAreDrawnAs) {
     const View view = tests::lookFrom({1.2, -2.5, 1}, {160, 120});
     for (const char* range : {"0.2:0.9", "0.2:0.25", "0.2:0.201", "0.2"}) {
         CellWorld world(waves(tests::cube(24)), {range});
         world.scene.opacityPer = OpacityPer::Crossing;
-        EXPECT_LT(errorOf(world, view), 0.07) << range;
+        EXPECT_LT(errorOf(world, view), 0.06) << range;
         const bool isWide = range == std::string_view("0.2:0.9");
         EXPECT_EQ(errorOf(world, view, OpacityPer::Length) < 0.5, isWide) << range;
     }
