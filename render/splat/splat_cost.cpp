@@ -45,7 +45,7 @@ glm::dvec2 sidesOf(const Seen& s, const PointsView& seen, glm::ivec2 size) {
 struct PieceCost {
     double setUp, crossed, whole, pixel;
 };
-constexpr PieceCost kUnordered{2.4, 0.8, 0.34, 0.13}, kOrdered{1.25, 1.36, 1, 0.08};
+constexpr PieceCost kUnordered{2.4, 0.8, 0.34, 0.1}, kOrdered{1.25, 1.36, 1, 0.06};
 const PieceCost& costsOf(const Scene& scene) {
     return scene.order == Order::None ? kUnordered : kOrdered;
 }

@@ -1,6 +1,7 @@
 // ui_bench: how long the window of `isochron FILE` lets its user wait (the demo, where no file is
 // named): from its start to the first picture, from a drag to the changed picture, and between two
 // frames, turning, while another file loads, and while a million points come to rest.
+// ui_bench --beside PROGRAM: from the start to a picture, by turns with another build of it.
 #include <fmt/core.h>
 #include <fmt/format.h>
 
@@ -131,18 +132,41 @@ bool hasSplats(const ui::Shot& shot) {
 }
 
 // From the program's start to splats in its window.
+double opening(const ui::Screen& screen, const std::filesystem::path& home,
+               const std::vector<std::string>& arguments,
+               const std::filesystem::path& program = tests::program()) {
+    const Clock::time_point begin = Clock::now();
+    ui::Driver desk(screen, home, arguments, {}, program);
+    const app::panels::Rect at = ui::placesOf(desk.size(), false).clear;
+    ui::waitUntil("splats are seen", [&] { return hasSplats(desk.shot(at)); });
+    return Milliseconds(Clock::now() - begin).count();
+}
 void runOpening(const ui::Screen& screen, const std::filesystem::path& home, const char* what,
                 const std::vector<std::string>& arguments) {
     constexpr int kStarts = 5;
     std::vector<double> out;
-    for (int i = 0; i < kStarts; ++i) {
-        const Clock::time_point begin = Clock::now();
-        ui::Driver desk(screen, home, arguments);
-        const app::panels::Rect at = ui::placesOf(desk.size(), false).clear;
-        ui::waitUntil("splats are seen", [&] { return hasSplats(desk.shot(at)); });
-        out.push_back(Milliseconds(Clock::now() - begin).count());
-    }
+    for (int i = 0; i < kStarts; ++i) out.push_back(opening(screen, home, arguments));
     tell(what, std::move(out));
+}
+
+// 1 % of 512^3, from an index; by the other program, which need not know of any, from the file.
+void runBeside(const std::filesystem::path& program) {
+    constexpr int kStarts = 5;
+    const ui::TemporaryFolder home;
+    const ui::Screen screen(home.path());
+    const std::string large = (home.path() / "large.nrrd").string();
+    const std::string cache = (home.path() / "cache").string();
+    bench::writeField(large, "float", 512, noise(std::size_t{1} << 27));
+    bench::runProgram({"index", large, "--cache", cache});
+    std::vector<double> now, other;
+    for (int i = 0; i < kStarts; ++i) {
+        now.push_back(
+            opening(screen, home.path(),
+                    {large, "--range", "0.5:0.51", "--model", "points", "--cache", cache}));
+        other.push_back(opening(screen, home.path(), {large, "--range", "0.5:0.51"}, program));
+    }
+    tell("from the start to 1 % of 512^3, from an index", std::move(now));
+    tell("from the start to 1 % of 512^3, by the other program", std::move(other));
 }
 
 // 0.25 to 0.75 of noise on 128^3 points are a million.
@@ -276,7 +300,10 @@ void run(const std::filesystem::path& file) {
 int main(int argc, char** argv) {
     std::setvbuf(stdout, nullptr, _IOLBF, 0);  // each figure as it is known, also into a file
     try {
-        run(argc > 1 ? std::filesystem::absolute(argv[1]) : tests::demo());
+        if (argc > 2 && std::string_view(argv[1]) == "--beside")
+            runBeside(std::filesystem::absolute(argv[2]));
+        else
+            run(argc > 1 ? std::filesystem::absolute(argv[1]) : tests::demo());
         return 0;
     } catch (const std::exception& error) {
         fmt::print(stderr, "ui_bench: {}\n", error.what());

@@ -59,9 +59,10 @@ void keepMemory() {
 
 Driver::Driver(const Screen& screen, const std::filesystem::path& folder,
                std::vector<std::string> arguments,
-               std::map<std::string, std::optional<std::string>> environment)
+               std::map<std::string, std::optional<std::string>> environment,
+               const std::filesystem::path& program)
     : screen_(screen),
-      process_({.program = tests::program(),
+      process_({.program = program,
                 .arguments = inWindow(std::move(arguments)),
                 .folder = folder,
                 .environment = withScreen(std::move(environment), screen, folder)}) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/panels/layout.h"
+#include "tests/support/built_paths.h"
 #include "tests/ui/process.h"
 #include "tests/ui/screen.h"
 #include "tests/ui/shot.h"
@@ -24,11 +25,12 @@ enum class Button { Left = 1, Middle = 2, Right = 3 };
 
 class Driver {
  public:
-    // Starts `isochron ARGUMENTS...` in `folder`, which is also its user's home, and waits for its
-    // window.
+    // Starts `isochron ARGUMENTS...`, or another of the program's builds, in `folder`, which is
+    // also its user's home, and waits for its window.
     Driver(const Screen& screen, const std::filesystem::path& folder,
            std::vector<std::string> arguments,
-           std::map<std::string, std::optional<std::string>> environment = {});
+           std::map<std::string, std::optional<std::string>> environment = {},
+           const std::filesystem::path& program = tests::program());
 
     Process& process() { return process_; }
     std::string title() const;
