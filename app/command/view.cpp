@@ -26,6 +26,8 @@ class Viewing {
     explicit Viewing(const ViewOptions& options) : options_(options) {}
 
     void run() {
+        // Beside the start of whoever shows it.
+        if (!options_.explorer.files.empty()) exploration_.open(options_.explorer);
         goThrough();
         // Nobody sees the window's word of it any more.
         if (exporting_) sayTo(stderr, "isochron: {}\n", exporting_->end());
@@ -38,7 +40,7 @@ class Viewing {
         if (options_.display != Display::Desktop) {
             why = inHeadset();
             if (!why) return;
-            if (options_.display == Display::Headset && !begun_) throw std::runtime_error(*why);
+            if (options_.display == Display::Headset && !seen_) throw std::runtime_error(*why);
         }
         while (inWindow(why) == desktop::Desktop::End::ToHeadset) {
             why = inHeadset();
@@ -57,7 +59,7 @@ class Viewing {
             return timeseries::sentenceOf(
                 error);  // before there is a session, a window does as well
         }
-        begin();
+        seen_ = true;
         try {
             headset->run();
             return std::nullopt;
@@ -75,9 +77,9 @@ class Viewing {
         }
         // Most machines have no headset: only who was in one is told in the window, too.
         if (noHeadset) sayTo(stderr, "isochron: in a window, because {}\n", *noHeadset);
-        if (noHeadset && begun_)
+        if (noHeadset && seen_)
             exploration_.tell("No headset any more: " + *noHeadset + ". Ctrl+H leads back into it");
-        begin();
+        seen_ = true;
         return desktop->run();
     }
 
@@ -87,16 +89,10 @@ class Viewing {
         return exporting_ ? text + ". " + exporting_->end() : text;
     }
 
-    // Not before there is somebody to see it.
-    void begin() {
-        if (std::exchange(begun_, true) || options_.explorer.files.empty()) return;
-        exploration_.open(options_.explorer);
-    }
-
     const ViewOptions& options_;
     Exploration exploration_{{.wake = [] { desktop::Window::wake(); }}};
     std::optional<ExportJob> exporting_;  // goes on from one front end to the next
-    bool begun_ = false;
+    bool seen_ = false;  // a front end was there
 };
 
 // What is not there is told where it was asked for, not in a window that shows nothing.

@@ -30,6 +30,7 @@ Desktop::Desktop(Exploration& exploration, std::optional<ExportJob>& exporting)
           stopped_ = true;
           Window::wake();
       }) {
+    exploration_.advance(0ns);  // what is open by now is read meanwhile
     render::gl::recordErrors();
     interface_.choices().scale = fileActions_.preferences().uiScale;
     interface_.choices().frameBudget =
