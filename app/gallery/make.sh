@@ -52,6 +52,8 @@ picture "$data/grids/icon_ocean_triangles.nc" ocean_of_triangles.png --variable 
 picture "$data/grids/warping_spheres.vtkhdf" warping_spheres.png --size 1000x750 --step 20 --view 25,20 --range min:max --colormap cool-warm --opacity 0.8
 picture "$data/fmri_filtered_func_64t.nii.gz" brain.png --size 1000x750 --step 32 --view 25,25 --range 5000:max --colormap inferno --opacity 0.2
 picture "$data/grids/emd_3001.map" density_map.png --size 1000x750 --view 30,15 --range 0.3:max --color '#3aa0ff' --opacity 0.6
+picture "$data/grids/chombo3d/chombo3d.vtm" adaptive_mesh.png --size 1000x750
+picture "$data/grids/openpmd_femm_3d.h5" magnet.png --size 1000x750
 
 # First looks: nothing is asked for, the program chooses.
 for first in isabel_windspeed_4d.nrrd hipip_ironProt_68.vtk tooth_u8.nrrd headsq_quarter/quarter.nhdr \
