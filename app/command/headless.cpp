@@ -26,6 +26,7 @@
 #include "app/say.h"
 #include "render/annotate/ticks.h"
 #include "render/frame/mean_depth.h"
+#include "render/image/picture_file.h"
 #include "timeseries/index/number.h"
 
 namespace app {
@@ -225,6 +226,7 @@ std::string whoDrew(const DrawingDevice& device, std::size_t byGl, std::size_t a
 }  // namespace
 
 int renderHeadless(const RenderOptions& options) {
+    render::PartialFile::leaveNoneWhenEnded();
     ChosenData chosen = openChosen(options.explorer);
     const Explorer& e = chosen.explorer;
     const Dataset& dataset = chosen.dataset;

@@ -5,7 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -21,6 +25,23 @@ namespace render {
 namespace {
 
 std::string lastError() { return std::generic_category().message(errno); }
+
+// What is being written, for a signal's handler, which may do little but read it: in memory that
+// stays, and more at once than a program writes.
+struct InWork {
+    std::atomic<const PartialFile*> by = nullptr;
+    std::array<char, PATH_MAX> name{};
+};
+std::array<InWork, 16> inWork;
+
+void removeInWork(int signal) {
+    // Whatever another thread does to a name meanwhile: nothing else is ever removed.
+    for (const InWork& each : inWork)
+        if (each.by && std::strstr(each.name.data(), PartialFile::kSuffix))
+            ::unlink(each.name.data());
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+}
 
 bool lockAlone(int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0; }
 
@@ -45,6 +66,7 @@ PartialFile::PartialFile(std::filesystem::path destination) : destination_(std::
     if (errno != 0) throw ImageError(destination_, "cannot be written: " + lastError());
     const int descriptor = openPartial();
     if (descriptor < 0) throw ImageError(destination_, "cannot be created: " + lastError());
+    keepInMind();
     there.keepMode(descriptor);
     locked_ = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
     stream_.reset(::fdopen(descriptor, "wb"));
@@ -53,6 +75,7 @@ PartialFile::PartialFile(std::filesystem::path destination) : destination_(std::
     ::close(descriptor);
     ::close(locked_);
     ::unlink(partial_.c_str());
+    forget();
     throw ImageError(destination_, "cannot be written: " + why);
 }
 
@@ -97,7 +120,34 @@ std::filesystem::path PartialFile::destinationOf(const std::filesystem::path& pa
     return isOne ? std::filesystem::path(partial).replace_extension() : std::filesystem::path();
 }
 
+void PartialFile::keepInMind() {
+    if (partial_.native().size() >= PATH_MAX) return;
+    for (InWork& each : inWork) {
+        const PartialFile* none = nullptr;
+        if (!each.by.compare_exchange_strong(none, this)) continue;
+        std::strcpy(each.name.data(), partial_.c_str());
+        return;
+    }
+}
+void PartialFile::forget() {
+    for (InWork& each : inWork) {
+        if (each.by != this) continue;
+        each.name[0] = 0;
+        each.by = nullptr;
+    }
+}
+
+void PartialFile::leaveNoneWhenEnded() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before {};
+        ::sigaction(signal, nullptr, &before);
+        // What is ignored, as by nohup, ends nothing.
+        if (before.sa_handler == SIG_DFL) std::signal(signal, removeInWork);
+    }
+}
+
 PartialFile::~PartialFile() {
+    forget();
     if (!partial_.empty()) ::unlink(partial_.c_str());
     if (locked_ >= 0) ::close(locked_);
 }
@@ -113,6 +163,7 @@ void PartialFile::commit() {
     if (::rename(partial_.c_str(), target_.c_str()) != 0) {
         throw ImageError(destination_, "cannot be replaced: " + lastError());
     }
+    forget();
     partial_.clear();
 }
 

@@ -29,8 +29,13 @@ class PartialFile {
     static std::filesystem::path destinationOf(const std::filesystem::path& partial);
     // What a program has left that was ended; one that somebody writes stays.
     static void removeLeft(const std::filesystem::path& partial);
+    // From now on a signal that ends the program (SIGINT, SIGTERM, SIGHUP) leaves none of what it
+    // is writing.
+    static void leaveNoneWhenEnded();
 
  private:
+    void keepInMind();
+    void forget();
     int openPartial();  // -1: errno tells why not
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }

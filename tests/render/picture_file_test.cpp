@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -49,6 +51,25 @@ TEST(PartialFile, WritesIntoWhatIsNoFile) {
     ::close(reader);
     ASSERT_GT(count, 0);
     EXPECT_EQ(std::string(text, static_cast<std::size_t>(count)), "through");
+}
+
+TEST(PartialFile, NoneIsLeftByAProgramThatASignalEnds) {
+    const fs::path folder = tests::freshFolder();
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            PartialFile::leaveNoneWhenEnded();
+            write(folder / "done", "done");
+            const PartialFile one(folder / "one.png"), other(folder / "other.png");
+            ::raise(signal);
+            ::_exit(0);
+        }
+        int status = 0;
+        ASSERT_EQ(::waitpid(child, &status, 0), child);
+        EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal);
+        EXPECT_EQ(tests::readBytes(folder / "done"), "done");
+        EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+    }
 }
 
 // A program that was ended leaves one; one that writes has it still.
