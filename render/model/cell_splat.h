@@ -140,6 +140,22 @@ Real meanRamp(Real a, Real b) {
     return ((xb - xa) * (xb + xa) / 2 + (std::max(b, Real(1)) - std::max(a, Real(1)))) / between;
 }
 
+// The mean of what clamp(x, 0, 1) adds up to from 0 on, between a and b: 0, x^2 / 2, x - 1/2, as Q.
+template <typename Real>
+Real meanAboveRamp(Real a, Real b) {
+    const auto within = [](Real x) { return std::clamp(x, Real(0), Real(1)); };
+    const auto beyond = [](Real x) { return std::max(x - 1, Real(0)); };
+    const Real between = b - a;
+    if (std::abs(between) < Real(kLeastDifference)) {
+        const Real x = (a + b) / 2;
+        return within(x) * within(x) / 2 + beyond(x);
+    }
+    const auto sum = [&](Real x) {
+        return within(x) * within(x) * within(x) / 6 + beyond(x) * (1 + beyond(x)) / 2;
+    };
+    return (sum(b) - sum(a)) / between;
+}
+
 inline bool touches(double least, double greatest, double lo, double hi) {
     return least <= hi && greatest >= lo;
 }
@@ -233,8 +249,16 @@ double alongCell(const Vec& ray, double depth, Vec& right, Vec& up) {
     return flat;
 }
 
+// Of a range that is so wide for what a pixel sees of the field, how far a piece's own mean tells
+// what the pixel sees of it there: of a thin one it sees all, whatever of it lies in this cell.
+template <typename Real>
+Real seenApart(Real widths) {
+    return std::clamp(2 * widths - Real(0.5), Real(0), Real(1));
+}
+
 // Of a linear piece that is worth so much W, from value to value, over a pixel in which the field
-// changes by `width`: what lies in the range, which has the mean of its ends there.
+// changes by `width`: what lies in the range, and the mean of what the pixel sees of it. Above an
+// end e the values that it sees are e + width Q(x) in the mean, x being the ramp's.
 template <typename Real, template <typename> typename Splat>
 CellFragment<Real> withinRange(const Splat<Real>& s, Real begin, Real end, Real width,
                                Real length) {
@@ -242,16 +266,22 @@ CellFragment<Real> withinRange(const Splat<Real>& s, Real begin, Real end, Real 
         const auto onRamp = [&](Real v) { return (v - bound) / width + Real(0.5); };
         return meanRamp(onRamp(begin), onRamp(end));
     };
-    const Real share =
-        (s.crossesLeast ? mean(s.least) : Real(1)) - (s.crossesMost ? mean(s.most) : Real(0));
-    const auto within = [&](Real v) {
-        v = std::clamp(v, Real(-1), Real(1));
-        if (s.crossesLeast) v = std::max(v, s.least);
-        return s.crossesMost ? std::min(v, s.most) : v;
+    const auto above = [&](Real bound) {
+        const auto onRamp = [&](Real v) { return (v - bound) / width + Real(0.5); };
+        return width * meanAboveRamp(onRamp(begin), onRamp(end));
     };
-    return {
-        std::max(share, Real(0)) * length,
-        (within(std::min(begin, end) - width / 2) + within(std::max(begin, end) + width / 2)) / 2};
+    const Real beyond = s.crossesMost ? mean(s.most) : Real(0);
+    const Real share = (s.crossesLeast ? mean(s.least) : Real(1)) - beyond;
+    if (!(share > 0)) return {0, (begin + end) / 2};
+    const Real least = s.crossesLeast ? s.least : Real(-1), most = s.crossesMost ? s.most : Real(1);
+    const Real sum = (s.crossesLeast ? above(least) : (begin + end) / 2 - least) -
+                     (s.crossesMost ? above(most) + (most - least) * beyond : Real(0));
+    Real value = least + sum / share;
+    if (s.crossesLeast && s.crossesMost) {
+        const Real middle = (least + most) / 2;
+        value = middle + seenApart((most - least) / width) * (value - middle);
+    }
+    return {share * length, std::clamp(value, std::max(least, Real(-1)), std::min(most, Real(1)))};
 }
 
 }  // namespace cell

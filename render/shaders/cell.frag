@@ -65,12 +65,12 @@ void main() {
         for (int k = 1; k <= kPieces; ++k) {
             const float begin = end, way = halfWay * (float(2 * k) / float(kPieces) - 1.0);
             end = value + way * (change + way * (second + way * third));
-            const float is = shareIn(begin, end, 1.0 / width) *
-                             max(whole / float(kPieces), abs(end - begin) * range.z);
+            const float share = shareIn(begin, end, 1.0 / width);
+            const float is = share * max(whole / float(kPieces), abs(end - begin) * range.z);
             w += is;
+            weighted += is * valueIn(begin, end, width, share);
             const vec2 ends = withinRange(vec2(min(begin, end), max(begin, end)) +
                                           vec2(-0.5, 0.5) * width);
-            weighted += 0.5 * is * (ends.x + ends.y);
             if (is > 0.0) lowest = min(lowest, ends.x);
             if (is > 0.0) highest = max(highest, ends.y);
         }

@@ -24,7 +24,7 @@ layout(location = 0) out vec4 sum;
 #endif
 
 const int kMaxLayers = 8;
-const float kLeastChange = 1e-5, kLeastStep = 1e-12;
+const float kLeastChange = 1e-5, kLeastStep = 1e-12, kLeastDifference = 1e-4;
 const float kAmbient = 0.25, kEven = 0.625, kSpecular = 0.35, kLow = 0.25;
 
 // 1 - e^-x; the series where the difference would cancel (its error there is below 1e-9).
@@ -40,6 +40,17 @@ float meanRamp(float a, float b) {
     return ((cb - ca) * (cb + ca) * 0.5 + (max(b, 1.0) - max(a, 1.0))) / between;
 }
 
+// The mean of what clamp(x, 0, 1) adds up to from 0 on, between a and b.
+float sumAboveRamp(float x) {
+    const float on = clamp(x, 0.0, 1.0), past = max(x - 1.0, 0.0);
+    return on * on * on / 6.0 + 0.5 * past * (1.0 + past);
+}
+float meanAboveRamp(float a, float b) {
+    if (abs(b - a) >= kLeastDifference) return (sumAboveRamp(b) - sumAboveRamp(a)) / (b - a);
+    const float x = 0.5 * (a + b), on = clamp(x, 0.0, 1.0);
+    return 0.5 * on * on + max(x - 1.0, 0.0);
+}
+
 bool crossesLeast() { return (kind.x & 1u) != 0u; }
 bool crossesMost() { return (kind.x & 2u) != 0u; }
 
@@ -51,6 +62,21 @@ float shareIn(float begin, float end, float perWidth) {
     if (crossesMost())
         share -= meanRamp((begin - range.y) * perWidth + 0.5, (end - range.y) * perWidth + 0.5);
     return max(share, 0.0);
+}
+// And of the values there the mean, of which the piece has that share.
+float valueIn(float begin, float end, float width, float share) {
+    const float least = crossesLeast() ? range.x : -1.0, most = crossesMost() ? range.y : 1.0;
+    float sum = 0.5 * (begin + end) - least;
+    if (crossesLeast())
+        sum = width * meanAboveRamp((begin - least) / width + 0.5, (end - least) / width + 0.5);
+    if (crossesMost()) {
+        const float a = (begin - most) / width + 0.5, b = (end - most) / width + 0.5;
+        sum -= width * meanAboveRamp(a, b) + (most - least) * meanRamp(a, b);
+    }
+    float value = least + sum / max(share, 1e-30);
+    if (crossesLeast() && crossesMost())
+        value = mix(0.5 * (least + most), value, clamp(2.0 * (most - least) / width - 0.5, 0.0, 1.0));
+    return clamp(value, max(least, -1.0), min(most, 1.0));
 }
 // The values in the range that are the nearest to these.
 vec2 withinRange(vec2 values) {

@@ -30,11 +30,14 @@ void main() {
     float w = whole, front = first, back = last, width = 0.0;
     if (crossesLeast() || crossesMost()) {
         width = clamp((base + 0.5 * (from + to)) * centreAndBase.w, 2.0 * kLeastChange, range.w);
-        w = shareIn(first, last, 1.0 / width) * max(whole, abs(last - first) * range.z);
+        const float share = shareIn(first, last, 1.0 / width);
+        w = share * max(whole, abs(last - first) * range.z);
         if (!(w > 0.0)) discard;
         const vec2 ends = withinRange(vec2(min(first, last), max(first, last)) + vec2(-0.5, 0.5) * width);
-        front = change > 0.0 ? ends.x : ends.y;
-        back = change > 0.0 ? ends.y : ends.x;
+        const float mean = valueIn(first, last, width, share);
+        const float spread = max(min(mean - ends.x, ends.y - mean), 0.0), toBack = change > 0.0 ? spread : -spread;
+        front = mean - toBack;
+        back = mean + toBack;
     }
 #if defined(WEIGHT)
     sum = w;

@@ -56,20 +56,39 @@ struct RangeLanes {
     }
 
     // Of a value, the integral of its share in the range from where that begins, times the width of
-    // the ramps at the range's ends, and that share times the width. `before` is where ramps begin.
+    // the ramps at the range's ends, and that share times the width; and, where values are asked
+    // for, the integral of what the values in the range are above its first end, likewise, and what
+    // that integral grows by. `before` is where ramps begin.
     struct Passed {
-        V way, share;
+        V way, share, above, aboveNow;
     };
+    template <bool kValues = false>
     HWY_INLINE Passed passed(V value, const V* before, V width) const {
+        const V half = hn::Set(lanes, 0.5f), zero = hn::Zero(lanes);
         const auto ofRamp = [&](V from) HWY_ATTR {
             const V x = hn::Sub(value, from);
-            const V on = hn::Min(hn::Max(x, hn::Zero(lanes)), width);
-            return Passed{hn::Mul(on, hn::NegMulAdd(hn::Set(lanes, 0.5f), on, x)), on};
+            const V on = hn::Min(hn::Max(x, zero), width);
+            Passed is{hn::Mul(on, hn::NegMulAdd(half, on, x)), on, zero, zero};
+            if constexpr (kValues) {
+                const V past = hn::Max(hn::Sub(x, width), zero);  // on is the width then
+                const V inside = hn::Mul(hn::Mul(on, on), hn::Set(lanes, 1 / 6.0f));
+                is.above =
+                    hn::Mul(on, hn::MulAdd(hn::Mul(half, past), hn::Add(width, past), inside));
+                is.aboveNow = is.way;
+            }
+            return is;
         };
         Passed is = ofRamp(before[0]);
         if constexpr (kEnds == 2) {
             const Passed beyond = ofRamp(before[1]);
-            is = {hn::Sub(is.way, beyond.way), hn::Sub(is.share, beyond.share)};
+            if constexpr (kValues) {
+                const V range = hn::Sub(end[1], end[0]);
+                is.above = hn::Sub(is.above, hn::MulAdd(range, beyond.way, beyond.above));
+                is.aboveNow =
+                    hn::Sub(is.aboveNow, hn::MulAdd(range, beyond.share, beyond.aboveNow));
+            }
+            is.way = hn::Sub(is.way, beyond.way);
+            is.share = hn::Sub(is.share, beyond.share);
         }
         return is;
     }
@@ -78,16 +97,46 @@ struct RangeLanes {
             before[k] = hn::NegMulAdd(hn::Set(lanes, 0.5f), width, end[k]);
     }
 
-    // Of a piece between two values, which differ so much.
-    HWY_INLINE V share(const Passed& first, const Passed& last, V change, V perWidth) const {
+    // Of a piece between two values, which differ so much: its share in the range; and what its
+    // values there are above the first end, times that share.
+    struct Share {
+        V is, above;
+    };
+    template <bool kValues = false>
+    HWY_INLINE Share share(V begins, V ends, const Passed& first, const Passed& last,
+                           V perWidth) const {
         const V one = hn::Set(lanes, 1.0f), half = hn::Set(lanes, 0.5f);
+        const V change = hn::Sub(ends, begins);
         const auto differ =
             hn::Ge(hn::Abs(change), hn::Set(lanes, static_cast<float>(kLeastDifference)));
-        const V per = reciprocal(lanes, hn::IfThenElse(differ, change, one));
-        const V sum = hn::IfThenElse(differ, hn::Sub(last.way, first.way),
-                                     hn::Mul(half, hn::Add(first.share, last.share)));
-        const V mean = hn::Mul(hn::Mul(sum, per), perWidth);
-        return hn::MulAdd(sign, mean, offset);
+        const V per = hn::Mul(reciprocal(lanes, hn::IfThenElse(differ, change, one)), perWidth);
+        const auto mean = [&](V a, V b, V aNow, V bNow) HWY_ATTR {
+            const V sum = hn::IfThenElse(differ, hn::Sub(b, a), hn::Mul(half, hn::Add(aNow, bNow)));
+            return hn::Mul(sum, per);
+        };
+        Share share{hn::MulAdd(sign, mean(first.way, last.way, first.share, last.share), offset),
+                    hn::Zero(lanes)};
+        if constexpr (kValues) {
+            const V middle = hn::MulSub(half, hn::Add(begins, ends), end[0]);
+            share.above =
+                hn::MulAdd(sign, mean(first.above, last.above, first.aboveNow, last.aboveNow),
+                           hn::Mul(offset, middle));
+        }
+        return share;
+    }
+    // The mean of values in the range that are so much above its first end, times `share`.
+    HWY_INLINE V meanValue(V above, V share, V perWidth) const {
+        const V some = hn::Max(share, hn::Set(lanes, 1e-30f));
+        V mean = hn::MulAdd(above, reciprocal(lanes, some), end[0]);
+        if constexpr (kEnds == 2) {
+            const V half = hn::Set(lanes, 0.5f), range = hn::Sub(end[1], end[0]);
+            const V twice = hn::Mul(hn::Add(range, range), perWidth);  // as cell::seenApart()
+            const V apart =
+                hn::Min(hn::Max(hn::Sub(twice, half), hn::Zero(lanes)), hn::Set(lanes, 1.0f));
+            const V middle = hn::MulAdd(half, range, end[0]);
+            mean = hn::MulAdd(apart, hn::Sub(mean, middle), middle);
+        }
+        return within(mean);
     }
 
     // What the pieces between these values weigh, of a way that weighs so much, or `perChange` for
@@ -97,32 +146,31 @@ struct RangeLanes {
                      V& lowest, V& highest) const {
         const V zero = hn::Zero(lanes);
         const V length = hn::Mul(way, hn::Set(lanes, 1.0f / kPieces));
-        V weight = zero, twice = zero, before[kEnds];
+        V weight = zero, above = zero, before[kEnds];
         ramps(width, before);
         lowest = hn::Set(lanes, 2.0f);  // more than f can be
         highest = hn::Neg(lowest);
-        Passed at = passed(values[0], before, width);
+        Passed at = passed<kByValue>(values[0], before, width);
         for (std::size_t k = 0; k < kPieces; ++k) {
-            const V first = values[k], last = values[k + 1], change = hn::Sub(last, first);
-            const Passed next = passed(last, before, width);
+            const V first = values[k], last = values[k + 1];
+            const Passed next = passed<kByValue>(last, before, width);
             V whole = length;
-            if (perChange) whole = hn::Max(length, hn::Mul(*perChange, hn::Abs(change)));
-            const V is = hn::Mul(share(at, next, change, perWidth), whole);
+            if (perChange)
+                whole = hn::Max(length, hn::Mul(*perChange, hn::Abs(hn::Sub(last, first))));
+            const Share of = share<kByValue>(first, last, at, next, perWidth);
+            const V is = hn::Mul(of.is, whole);
             at = next;
             weight = hn::Add(weight, is);
             if constexpr (kByValue) {
+                above = hn::MulAdd(of.above, whole, above);
                 V low, high;
                 ends(first, last, width, low, high);
-                twice = hn::MulAdd(is, hn::Add(low, high), twice);
                 const auto counts = hn::Gt(is, zero);
                 lowest = hn::IfThenElse(counts, hn::Min(lowest, low), lowest);
                 highest = hn::IfThenElse(counts, hn::Max(highest, high), highest);
             }
         }
-        if constexpr (kByValue) {
-            const V all = hn::Max(hn::Add(weight, weight), hn::Set(lanes, 1e-30f));
-            mean = hn::Mul(twice, reciprocal(lanes, all));
-        }
+        if constexpr (kByValue) mean = meanValue(above, weight, perWidth);
         return hn::Max(weight, zero);
     }
 };

@@ -104,16 +104,21 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                 const RangeLanes<Lanes, kEnds> range(lanes, c);
                 V before[kEnds];
                 range.ramps(width, before);
-                const V share = range.share(range.passed(first, before, width),
-                                            range.passed(last, before, width), hn::Sub(last, first),
-                                            reciprocal(lanes, width));
-                t = hn::Mul(t, hn::Max(share, set(0)));
+                const V perWidth = reciprocal(lanes, width);
+                const auto share = range.template share<kByValue>(
+                    first, last, range.template passed<kByValue>(first, before, width),
+                    range.template passed<kByValue>(last, before, width), perWidth);
+                t = hn::Mul(t, hn::Max(share.is, set(0)));
                 beside = width;
-                V low, high;
-                range.ends(first, last, width, low, high);
-                const auto rises = hn::Gt(change, set(0));
-                front = hn::IfThenElse(rises, low, high);
-                back = hn::IfThenElse(rises, high, low);
+                if constexpr (kByValue) {
+                    V low, high;
+                    range.ends(first, last, width, low, high);
+                    const V mean = range.meanValue(share.above, share.is, perWidth);
+                    const V aside = hn::CopySign(
+                        hn::Max(hn::Min(hn::Sub(mean, low), hn::Sub(high, mean)), set(0)), change);
+                    front = hn::Sub(mean, aside);
+                    back = hn::Add(mean, aside);
+                }
             }
             if constexpr (kByValue && kChannels == Channels::Over)
                 back =

@@ -8,6 +8,7 @@
 
 #include "render/model/cell_splat.h"
 #include "tests/support/cell_rays.h"
+#include "tests/support/meshes.h"
 #include "tests/support/rounds.h"
 #include "tests/support/scenes.h"
 
@@ -292,6 +293,40 @@ TEST(CellSplatter, RaysEndAtWhatIsOpaque) {
                 std::max(std::min(to, kWall) - from, 0.0) * ray.length / world.placed.unitLength();
             ASSERT_NEAR(w[std::size_t(y) * 40 + std::size_t(x)], wanted, 2e-3 * (1 + wanted));
         }
+}
+
+// However a ray's pieces part a layer of which a pixel sees about the range: in a linear field all
+// pixels see the same of it, but for those where it lies in two cells.
+TEST(CellSplatter, ALayerOfALinearFieldHasOneColor) {
+    for (const bool placedOneByOne : {false, true}) {
+        const std::shared_ptr<const timeseries::Grid> grid =
+            placedOneByOne
+                ? tests::curvilinear(
+                      {9, 9, 9}, [](double i, double j, double k) { return glm::dvec3(i, j, k); })
+                : tests::cube(9);
+        CellWorld world(tests::stepOf(grid,
+                                      [&](std::size_t i) {
+                                          const auto at = grid->indices(i);
+                                          return double(at.z) + 0.37 * double(at.y) +
+                                                 0.21 * double(at.x);
+                                      }),
+                        {"6.2:6.3"}, 0.9);
+        world.scene.layers[0].style.color = ByValue{ColorMap(), 6.2, 6.3};
+        world.scene.opacityPer = OpacityPer::Crossing;
+        world.scene.order = Order::BackToFront;
+        const View view = tests::lookFrom({0.9, -1.4, 2.2}, {160, 120});
+        const std::vector<float> pixels = drawn(world.scene, view, Channels::Over);
+        std::vector<float> greens;
+        for (std::size_t i = 0; i < pixels.size(); i += 4)
+            if (pixels[i + 3] > 0.89f && pixels[i + 3] < 0.91f)
+                greens.push_back(pixels[i + 1] / pixels[i + 3]);
+        ASSERT_GT(greens.size(), 1000u);
+        std::ranges::nth_element(greens, greens.begin() + std::ptrdiff_t(greens.size() / 2));
+        const float middle = greens[greens.size() / 2];
+        const auto others = std::ranges::count_if(
+            greens, [&](float green) { return std::abs(green - middle) > 0.02f; });
+        EXPECT_LT(double(others), 0.2 * double(greens.size())) << placedOneByOne;
+    }
 }
 
 }  // namespace
