@@ -28,6 +28,8 @@ struct HeightFormula {
     std::map<std::string, std::string> terms;  // the variable of each, "ps": "PS"
     std::string name, units;                   // of what it gives: "air pressure", "Pa"
     bool down = false, inTime = false;
+    // Of the terms those that lie on other columns, and are taken from there.
+    std::vector<std::string> beside = {};
     friend bool operator==(const HeightFormula&, const HeightFormula&) = default;
 };
 
@@ -37,6 +39,9 @@ struct HeightFormula {
 // what is no list.
 std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVariable& variable,
                                              const Roles& roles);
+
+// What is only near what the formula says, as a note; "" where nothing is.
+std::string approximationIn(const HeightFormula& formula);
 
 // [z][y][x], x fastest, of one step, without y of a list; not a number where a term is none.
 // REQUIRES: heightFormulaOf gave it. Throws FileError, and std::invalid_argument when there is too
