@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "timeseries/readers/cf/cf_mpas.h"
 #include "timeseries/readers/text/units.h"
 
 namespace timeseries {
@@ -127,6 +128,29 @@ std::optional<HeightFormula> givenHeightsOf(const NcHeader& header, const NcVari
     return heightsIn("zcor", false);
 }
 
+// MPAS's, of its cells: of the levels between the variable's, or of these.
+std::optional<HeightFormula> mpasHeightsOf(const NcHeader& header, const NcVariable& variable,
+                                           const Roles& roles) {
+    if (!roles.list || !isMpas(header) || header.dimension(variable, *roles.list).name != "nCells")
+        return std::nullopt;
+    for (const char* name : {"zgrid", "zMid"}) {
+        const NcVariable* const found = header.find(name, variable.group);
+        if (!found) continue;
+        const bool isHere = has(*found, variable.dimensions[*roles.z]) &&
+                            has(*found, variable.dimensions[*roles.list]) &&
+                            spansNoMore(header, *found, variable, roles);
+        if (!isHere && !rolesBeside(header, *found, variable, roles)) continue;
+        HeightFormula formula;
+        formula.kind = Formula::Given;
+        formula.terms["z"] = found->name;
+        formula.name = found->baseName();
+        formula.units = found->text("units").empty() ? "m" : found->text("units");
+        formula.inTime = hasTime(*found, variable, roles);
+        return formula;
+    }
+    return std::nullopt;
+}
+
 std::optional<HeightFormula> formulaOf(const NcHeader& header, const NcVariable& variable,
                                        const Roles& roles, const NcVariable& level) {
     HeightFormula formula;
@@ -214,6 +238,7 @@ struct Term {
 std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVariable& variable,
                                              const Roles& roles) {
     if (auto given = givenHeightsOf(header, variable, roles)) return given;
+    if (auto ofMpas = mpasHeightsOf(header, variable, roles)) return ofMpas;
     for (const NcVariable* level : levelsOf(header, variable, roles))
         if (auto formula = formulaOf(header, variable, roles, *level)) return formula;
     return roles.y ? wrfFormulaOf(header, variable, roles) : std::nullopt;

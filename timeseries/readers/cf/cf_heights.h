@@ -35,8 +35,9 @@ struct HeightFormula {
 
 // That of a coordinate of the variable's levels, or WRF's, whose terms are all there; above places
 // in a list also heights that a variable has: one that the attribute `coordinates` names and that
-// says it is vertical, by length or pressure, or SCHISM's `zcor`. REQUIRES: roles.x and z, and y of
-// what is no list.
+// says it is vertical, by length or pressure, SCHISM's `zcor`, or MPAS's `zgrid` (of the levels
+// between which those of most variables are) or `zMid`. REQUIRES: roles.x and z, and y of what is
+// no list.
 std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVariable& variable,
                                              const Roles& roles);
 
