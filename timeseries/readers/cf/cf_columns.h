@@ -32,6 +32,9 @@ struct ColumnPlaces {
     std::string faceSizes = {};
     int firstNode = 0;
     std::string units = {};
+    // What the coordinates of the places themselves are called, where x and y are of what stands
+    // about them; "": as these are.
+    std::string xName = {}, yName = {};
     // Each column has heights of its own. `upright`: x and y are coordinates of one dimension.
     std::optional<HeightFormula> heights = {};
     bool upright = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "timeseries/readers/cf/cf_mpas.h"
 #include "timeseries/readers/cf/cf_seam.h"
 #include "timeseries/readers/cf/cf_values.h"
 #include "timeseries/readers/limits.h"
@@ -35,13 +36,15 @@ Axis axisOf(const CfFile& file, const FileAxes& fileAxes, const NcVariable& vari
             std::size_t position, std::vector<std::string>& notes) {
     const NcDimension& dimension = file.header().dimension(variable, position);
     const NcVariable* coordinate = fileAxes.coordinateOf(variable, position);
-    if (!coordinate) {
+    std::optional<Axis> ofMpas = coordinate ? std::nullopt : mpasDepthsOf(file, variable, position);
+    if (!coordinate && !ofMpas) {
         notes.push_back(dimension.name + " is placed by index: the file has no coordinates for it");
         return {dimension.name, "index", indexCoordinates(dimension.length), false};
     }
-    Axis axis{std::string(coordinate->baseName()), coordinate->text("units"),
-              valuesOf(file, *coordinate), pointsDown(*coordinate)};
-    if (isLongitude(*coordinate)) goOnAcrossTheSeam(axis.coordinates);
+    Axis axis = ofMpas ? std::move(*ofMpas)
+                       : Axis{std::string(coordinate->baseName()), coordinate->text("units"),
+                              valuesOf(file, *coordinate), pointsDown(*coordinate)};
+    if (coordinate && isLongitude(*coordinate)) goOnAcrossTheSeam(axis.coordinates);
     if (const std::string why = flawOf(axis.coordinates); !why.empty()) {
         notes.push_back(axis.name + " is placed by index: " + why);
         axis.units = "index";
@@ -84,7 +87,8 @@ Axis listedAxis(const NcHeader& header, const ColumnPlaces& list, bool isX) {
         const bool isOnEarth = !list.units.empty() || kind == (isX ? AxisKind::X : AxisKind::Y);
         units = !isOnEarth ? "degrees" : isX ? "degrees_east" : "degrees_north";
     }
-    return {std::string(place.baseName()), units, {0.0}, false};
+    const std::string& own = isX ? list.xName : list.yName;
+    return {own.empty() ? std::string(place.baseName()) : own, units, {0.0}, false};
 }
 
 // Where each column has heights of its own: unless there are too many of them.

@@ -1,10 +1,13 @@
 #include "timeseries/readers/cf/cf_heights.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
 
+#include "timeseries/readers/cf/cf_mpas.h"
 #include "timeseries/readers/text/units.h"
 
 namespace timeseries {
@@ -125,6 +128,29 @@ std::optional<HeightFormula> givenHeightsOf(const NcHeader& header, const NcVari
     return heightsIn("zcor", false);
 }
 
+// MPAS's, of its cells: of the levels between the variable's, or of these.
+std::optional<HeightFormula> mpasHeightsOf(const NcHeader& header, const NcVariable& variable,
+                                           const Roles& roles) {
+    if (!roles.list || !isMpas(header) || header.dimension(variable, *roles.list).name != "nCells")
+        return std::nullopt;
+    for (const char* name : {"zgrid", "zMid"}) {
+        const NcVariable* const found = header.find(name, variable.group);
+        if (!found) continue;
+        const bool isHere = has(*found, variable.dimensions[*roles.z]) &&
+                            has(*found, variable.dimensions[*roles.list]) &&
+                            spansNoMore(header, *found, variable, roles);
+        if (!isHere && !rolesBeside(header, *found, variable, roles)) continue;
+        HeightFormula formula;
+        formula.kind = Formula::Given;
+        formula.terms["z"] = found->name;
+        formula.name = found->baseName();
+        formula.units = found->text("units").empty() ? "m" : found->text("units");
+        formula.inTime = hasTime(*found, variable, roles);
+        return formula;
+    }
+    return std::nullopt;
+}
+
 std::optional<HeightFormula> formulaOf(const NcHeader& header, const NcVariable& variable,
                                        const Roles& roles, const NcVariable& level) {
     HeightFormula formula;
@@ -136,7 +162,11 @@ std::optional<HeightFormula> formulaOf(const NcHeader& header, const NcVariable&
         if (!term.empty() && !formula.terms.contains(std::string(term))) return std::nullopt;
     for (auto& [term, name] : formula.terms) {
         const NcVariable* const found = header.find(name, level.group);
-        if (!found || !spansNoMore(header, *found, variable, roles)) return std::nullopt;
+        if (!found) return std::nullopt;
+        if (!spansNoMore(header, *found, variable, roles)) {
+            if (roles.list || !rolesBeside(header, *found, variable, roles)) return std::nullopt;
+            formula.beside.push_back(found->name);
+        }
         name = found->name;
         formula.inTime = formula.inTime || hasTime(*found, variable, roles);
         if (term == known->measure) formula.units = found->text("units");
@@ -180,42 +210,17 @@ std::optional<HeightFormula> wrfFormulaOf(const NcHeader& header, const NcVariab
     return formula;
 }
 
-// Halfway between, where the variable lies there; beside the outermost columns as in these.
 std::vector<double> wrfHeights(const CfFile& file, const HeightFormula& formula,
                                const std::array<std::size_t, 3>& size, std::size_t step) {
     constexpr double kGravity = 9.80665;
-    std::array<TermValues, 2> parts;
-    std::array<std::size_t, 3> own{};
-    for (std::size_t n = 0; n < 2; ++n) {
-        const NcVariable* const part =
-            file.header().find(formula.terms.at(n == 0 ? "PH" : "PHB"), "");
+    std::vector<double> heights(size[0] * size[1] * size[2]);
+    for (const char* name : {"PH", "PHB"}) {
+        const NcVariable* const part = file.header().find(formula.terms.at(name), "");
         if (!part || part->dimensions.size() != 4)
-            file.fail(n == 0 ? "PH" : "PHB", "expected it as when the series was opened");
-        parts[n] = termOf(file, *part, *part, kGeopotentialRoles, step);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::size_t length = file.header().dimension(*part, 3 - axis).length;
-            if (n == 1 && own[axis] != length) file.fail("PHB", "expected the lengths that PH has");
-            own[axis] = length;
-        }
+            file.fail(name, "expected it as when the series was opened");
+        const TermValues values = termBeside(file, *part, kGeopotentialRoles, size, step);
+        for (std::size_t n = 0; n < heights.size(); ++n) heights[n] += values.values[n] / kGravity;
     }
-    // The two that a place lies between, or twice the one where it is.
-    const auto between = [&](std::size_t axis, std::size_t at) -> std::array<std::size_t, 2> {
-        if (size[axis] == own[axis]) return {at, at};
-        if (size[axis] < own[axis]) return {at, at + 1};
-        return {at > 0 ? at - 1 : 0, std::min(at, own[axis] - 1)};
-    };
-    std::vector<double> heights;
-    heights.reserve(size[0] * size[1] * size[2]);
-    for (std::size_t k = 0; k < size[2]; ++k)
-        for (std::size_t j = 0; j < size[1]; ++j)
-            for (std::size_t i = 0; i < size[0]; ++i) {
-                double sum = 0;
-                for (const std::size_t z : between(2, k))
-                    for (const std::size_t y : between(1, j))
-                        for (const std::size_t x : between(0, i))
-                            sum += parts[0].at(x, y, z) + parts[1].at(x, y, z);
-                heights.push_back(sum / 8 / kGravity);
-            }
     return heights;
 }
 
@@ -233,28 +238,44 @@ struct Term {
 std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVariable& variable,
                                              const Roles& roles) {
     if (auto given = givenHeightsOf(header, variable, roles)) return given;
+    if (auto ofMpas = mpasHeightsOf(header, variable, roles)) return ofMpas;
     for (const NcVariable* level : levelsOf(header, variable, roles))
         if (auto formula = formulaOf(header, variable, roles, *level)) return formula;
     return roles.y ? wrfFormulaOf(header, variable, roles) : std::nullopt;
 }
 
+std::string approximationIn(const HeightFormula& formula) {
+    std::string terms;
+    for (const std::string& name : formula.beside) terms += (terms.empty() ? "" : " and ") + name;
+    if (terms.empty()) return "";
+    return fmt::format(
+        "its heights are near what their formula says: of {}, which other columns have, it takes "
+        "the mean of those beside each point",
+        terms);
+}
+
 std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, const Roles& roles,
                               const HeightFormula& formula, std::size_t step) {
-    const auto term = [&](const char* name) {
-        const auto found = formula.terms.find(name);
-        if (found == formula.terms.end()) return Term{};
-        const NcVariable* const from = file.header().find(found->second, "");
-        if (!from || !spansNoMore(file.header(), *from, variable, roles))
-            file.fail("variable '" + variable.name + "'",
-                      "expected the terms of its heights as when the series was opened");
-        const auto ratio = unitRatio(from->text("units"), formula.units);
-        return Term{termOf(file, *from, variable, roles, step), ratio.value_or(1)};
-    };
     const std::array size{
         file.header().dimension(variable, *roles.x).length,
         roles.y ? file.header().dimension(variable, *roles.y).length : std::size_t{1},
         file.header().dimension(variable, *roles.z).length};
     if (formula.kind == Formula::Wrf) return wrfHeights(file, formula, size, step);
+    const auto term = [&](const char* name) {
+        const auto found = formula.terms.find(name);
+        if (found == formula.terms.end()) return Term{};
+        const NcVariable* const from = file.header().find(found->second, "");
+        const bool isHere = from && spansNoMore(file.header(), *from, variable, roles);
+        const auto own =
+            from && !isHere ? rolesBeside(file.header(), *from, variable, roles) : std::nullopt;
+        if (!isHere && !own)
+            file.fail("variable '" + variable.name + "'",
+                      "expected the terms of its heights as when the series was opened");
+        const auto ratio = unitRatio(from->text("units"), formula.units);
+        return Term{isHere ? termOf(file, *from, variable, roles, step)
+                           : termBeside(file, *from, *own, size, step),
+                    ratio.value_or(1)};
+    };
     std::vector<double> heights;
     heights.reserve(size[0] * size[1] * size[2]);
     const auto fill = [&](const auto& of) {

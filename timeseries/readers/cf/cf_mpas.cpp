@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
+
+#include "timeseries/readers/cf/cf_values.h"
 
 namespace timeseries {
 namespace {
 
 struct MpasKind {
-    const char *along, *x, *y, *about, *counts;
+    const char *along, *ownX, *ownY, *x, *y, *about, *counts;
 };
 constexpr std::array kMpasKinds{
-    MpasKind{"nCells", "lonVertex", "latVertex", "verticesOnCell", "nEdgesOnCell"},
-    MpasKind{"nVertices", "lonCell", "latCell", "cellsOnVertex", ""}};
+    MpasKind{"nCells", "lonCell", "latCell", "lonVertex", "latVertex", "verticesOnCell",
+             "nEdgesOnCell"},
+    MpasKind{"nVertices", "lonVertex", "latVertex", "lonCell", "latCell", "cellsOnVertex", ""}};
 
 bool hasDimension(const NcHeader& header, std::string_view name) {
     return std::ranges::find(header.dimensions, name, &NcDimension::name) !=
@@ -75,11 +79,45 @@ std::optional<MpasPlaces> mpasPlacesOf(const NcHeader& header, const NcVariable&
                            .faces = about->name,
                            .faceSizes = isCounted ? counts->name : "",
                            .firstNode = 1,
-                           .units = x->text("units").empty() ? "radian" : x->text("units")},
+                           .units = x->text("units").empty() ? "radian" : x->text("units"),
+                           .xName = kind.ownX,
+                           .yName = kind.ownY},
                           *list,
                           levels};
     }
     return std::nullopt;
+}
+
+std::optional<Axis> mpasDepthsOf(const CfFile& file, const NcVariable& variable,
+                                 std::size_t position) {
+    const NcHeader& header = file.header();
+    constexpr std::string_view kLevels = "nVertLevels", kBetween = "nVertLevelsP1";
+    const NcDimension& levels = header.dimension(variable, position);
+    const bool between = levels.name == kBetween;
+    if ((levels.name != kLevels && !between) || !isOnMpas(header, variable)) return std::nullopt;
+    const auto ofEach = [&](const char* name) -> const NcVariable* {
+        const NcVariable* const found = header.find(name, "");
+        const bool isIt = found && found->type && found->dimensions.size() == 1 &&
+                          header.dimension(*found, 0).name == kLevels &&
+                          header.dimension(*found, 0).length + (between ? 1 : 0) == levels.length;
+        return isIt ? found : nullptr;
+    };
+    const auto unitsOf = [](const NcVariable& depth) {
+        return depth.text("units").empty() ? std::string("m") : depth.text("units");
+    };
+    if (const NcVariable* const bottoms = ofEach("refBottomDepth")) {
+        std::vector<double> depths = valuesOf(file, *bottoms);
+        depths.insert(depths.begin(), 0);
+        if (!between) {
+            for (std::size_t k = 0; k + 1 < depths.size(); ++k)
+                depths[k] = 0.5 * (depths[k] + depths[k + 1]);
+            depths.pop_back();
+        }
+        return Axis{"depth", unitsOf(*bottoms), std::move(depths), true};
+    }
+    const NcVariable* const middles = between ? nullptr : ofEach("refZMid");
+    if (!middles) return std::nullopt;
+    return Axis{middles->name, unitsOf(*middles), valuesOf(file, *middles), false};
 }
 
 }  // namespace timeseries

@@ -25,4 +25,10 @@ struct MpasPlaces {
 };
 std::optional<MpasPlaces> mpasPlacesOf(const NcHeader& header, const NcVariable& variable);
 
+// The ocean's levels, or those between them, as depths or heights of all columns alike: by how deep
+// the layers reach, or where their middles lie. Nothing where the file does not tell. REQUIRES:
+// kMaxAxis levels at most. Throws FileError.
+std::optional<Axis> mpasDepthsOf(const CfFile& file, const NcVariable& variable,
+                                 std::size_t position);
+
 }  // namespace timeseries

@@ -253,6 +253,9 @@ void CfReader::addVariable(std::size_t v) {
     if (variable.grid->mesh())
         for (std::string& note : notesOf(*variable.grid->mesh()))
             variable.notes.push_back(std::move(note));
+    if (const auto& columns = first.axes.columns; columns && columns->heights)
+        if (std::string note = approximationIn(*columns->heights); !note.empty())
+            variable.notes.push_back(std::move(note));
     const auto sameGrid = [&](const Variable& other) { return *other.grid == *variable.grid; };
     if (const auto other = std::ranges::find_if(variables_, sameGrid); other != variables_.end())
         variable.grid = other->grid;
