@@ -54,7 +54,7 @@ ordered_json axisJson(const Axis& axis) {
     return out;
 }
 
-ordered_json variableJson(const Variable& v) {
+ordered_json variableJson(const Variable& v, const timeseries::StepGrids& grids) {
     ordered_json out{{"name", v.name},
                      {"longName", v.longName},
                      {"units", v.units},
@@ -66,6 +66,7 @@ ordered_json variableJson(const Variable& v) {
     for (const timeseries::ClassName& each : v.classes)
         out["classes"].push_back({{"value", each.value}, {"name", each.name}});
     out["grid"] = gridJson(*v.grid);
+    out["grid"].update(stepGridsJson(grids));
     for (const Axis& axis : v.grid->axes())
         if (v.grid->mesh())
             out["grid"]["coordinates"].push_back(coordinateJson(axis));
@@ -174,7 +175,7 @@ void print(const Indexed& indexed, const Variable& v) {
             megabytesText(indexed.bytes));
 }
 
-void print(const Variable& v, bool shownFirst) {
+void print(const Variable& v, const timeseries::StepGrids& grids, bool shownFirst) {
     say("\n{}{}{}{}\n", v.name, v.longName.empty() ? "" : ", " + v.longName,
         v.units.empty() ? "" : " (" + v.units + ")", shownFirst ? "  * shown first" : "");
     say("  type     {}{}{}\n", timeseries::typeName(v.type), v.categories ? ", categories" : "",
@@ -184,6 +185,8 @@ void print(const Variable& v, bool shownFirst) {
         say("{}{} {}{}", i == 0 ? "  classes  " : ", ", v.classes[i].value, v.classes[i].name,
             i + 1 == v.classes.size() ? "\n" : "");
     say("  grid     {}\n", gridText(*v.grid));
+    if (const std::string others = stepGridsText(grids); !others.empty())
+        say("           {}\n", others);
     for (const Axis& axis : v.grid->axes())
         say("           {}\n", axisText(axis, v.grid->mesh() != nullptr));
     if (!v.grid->frame().aligned()) say("           {}\n", frameText(v.grid->frame()));
@@ -196,6 +199,28 @@ void print(const Variable& v, bool shownFirst) {
             v.time->calendar.empty() ? "" : ", calendar " + v.time->calendar);
     }
     for (const std::string& note : v.notes) say("  note     {}\n", note);
+}
+
+// Of each variable: those of one grid at the same steps share it. What cannot be read is told where
+// its step is read.
+std::vector<timeseries::StepGrids> stepGridsOf(timeseries::Reader& reader) {
+    std::vector<timeseries::StepGrids> all;
+    const auto variables = reader.variables();
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+        const auto same = std::ranges::find_if(variables.first(i), [&](const Variable& other) {
+            return other.grid == variables[i].grid && other.time == variables[i].time;
+        });
+        if (const auto at = static_cast<std::size_t>(same - variables.begin()); at < i) {
+            all.push_back(all[at]);
+            continue;
+        }
+        try {
+            all.push_back(reader.stepGrids(i));
+        } catch (const timeseries::FileError&) {
+            all.emplace_back();
+        }
+    }
+    return all;
 }
 
 // All of a few files, else the first and the last: what was recognised tells the rest.
@@ -214,6 +239,7 @@ int info(const InfoOptions& options) {
     const auto variables = reader->variables();
     const std::size_t shownFirst = defaultVariable(variables);
     const timeseries::StepStores stores = filled(storesFor(reader->files()));
+    const auto grids = stepGridsOf(*reader);
     std::vector<std::string> files;
     for (const auto& file : reader->files()) files.push_back(file.string());
     if (options.json) {
@@ -223,7 +249,7 @@ int info(const InfoOptions& options) {
         if (!series.notes.empty()) out["notes"] = series.notes;
         out["shownFirst"] = variables[shownFirst].name;
         for (std::size_t i = 0; i < variables.size(); ++i) {
-            out["variables"].push_back(variableJson(variables[i]));
+            out["variables"].push_back(variableJson(variables[i], grids[i]));
             const Indexed indexed = indexedOf(*reader, i, stores);
             out["variables"].back()["index"] = {{"steps", indexed.steps}, {"bytes", indexed.bytes}};
         }
@@ -236,7 +262,7 @@ int info(const InfoOptions& options) {
     for (const std::string& note : series.notes) say("note: {}\n", note);
     say("{}\n", reader->format());
     for (std::size_t i = 0; i < variables.size(); ++i) {
-        print(variables[i], variables.size() > 1 && i == shownFirst);
+        print(variables[i], grids[i], variables.size() > 1 && i == shownFirst);
         print(indexedOf(*reader, i, stores), variables[i]);
     }
     return 0;

@@ -92,4 +92,26 @@ nlohmann::ordered_json gridJson(const Grid& grid) {
     return out;
 }
 
+std::string stepGridsText(const timeseries::StepGrids& grids) {
+    using Are = timeseries::StepGrids::Are;
+    if (grids.are == Are::One) return "";
+    if (grids.are == Are::Moved) return "of the first step: its places move, what joins them stays";
+    const std::string others = "of the first step; others have their own";
+    if (grids.most == 0) return others;
+    if (grids.least == grids.most) return others + ", of as many points";
+    return fmt::format("{}, of {} to {} points", others, withCommas(grids.least),
+                       withCommas(grids.most));
+}
+
+nlohmann::ordered_json stepGridsJson(const timeseries::StepGrids& grids) {
+    using Are = timeseries::StepGrids::Are;
+    if (grids.are != Are::Own) return {{"steps", grids.are == Are::Moved ? "moved" : "one"}};
+    nlohmann::ordered_json out{{"steps", "own"}};
+    if (grids.most > 0) {
+        out["leastPoints"] = grids.least;
+        out["mostPoints"] = grids.most;
+    }
+    return out;
+}
+
 }  // namespace app

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "timeseries/grid/grid.h"
+#include "timeseries/grid/step_grids.h"
 
 namespace app {
 
@@ -13,7 +14,14 @@ std::string gridKind(const timeseries::Grid& grid);
 // "curvilinear, 9 x 8 x 7 = 504 points", "unstructured, 5,200 points, one a cell: 5,000 hexahedra,
 // 200 wedges".
 std::string gridText(const timeseries::Grid& grid);
-// The same as members: kind, points, and of cells at (cells or corners), cells, levels.
+// What the grids of other steps are to it: "of the first step; others have their own, of 8 to 20
+// points"; "" where all have the same.
+std::string stepGridsText(const timeseries::StepGrids& grids);
+// The same as members: steps ("one", "moved" or "own"), and of own ones, where that is known,
+// leastPoints and mostPoints.
+nlohmann::ordered_json stepGridsJson(const timeseries::StepGrids& grids);
+// What gridText() tells as members: kind, points, and of cells at (cells or corners), cells,
+// levels.
 nlohmann::ordered_json gridJson(const timeseries::Grid& grid);
 
 }  // namespace app

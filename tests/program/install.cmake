@@ -1,5 +1,5 @@
 # cmake --install into a folder of its own, and what then stands there:
-#   cmake -DBUILD= -DWORK= -DFILE= -DVDB= -DVERSION= -DTYPES= -P install.cmake
+#   cmake -DBUILD= -DWORK= -DFILE= -DVDB= -DVERSION= -DTYPES= -DREADME= -DVTK= -P install.cmake
 # VDB: a file of OpenVDB, where that is read.
 # TYPES: the endings of files that must have a MIME type which the desktop entry claims, with | between.
 include(${CMAKE_CURRENT_LIST_DIR}/functions.cmake)
@@ -60,6 +60,34 @@ endif()
 string(REGEX MATCH "\nMimeType=([^\n]*)" line "${entry}")
 set(claimed "${CMAKE_MATCH_1}")
 string(REPLACE "|" ";" TYPES "${TYPES}")
+# And all that the README's table of formats names, but what other programs' files mostly are, folders,
+# and the part of a pair that says nothing of itself.
+set(unclaimed txt zip gz zarr img)
+file(READ ${README} readme)
+string(REGEX MATCH "\n[|] format [|].*" table "${readme}")
+string(REGEX REPLACE "\n\n.*" "" table "${table}")
+string(REPLACE ";" "," table "${table}")
+string(REPLACE "\n" ";" rows "${table}")
+foreach(row IN LISTS rows)
+  if(NOT row MATCHES "^[|]([^|]*)[|]([^|]*)[|]")
+    continue()
+  endif()
+  set(formats "${CMAKE_MATCH_1}")
+  set(through "${CMAKE_MATCH_2}")
+  if((through MATCHES "^ VTK" AND NOT VTK) OR (through MATCHES "^ OpenVDB" AND NOT VDB))
+    continue()
+  endif()
+  string(REGEX MATCHALL "[ (][.][A-Za-z][A-Za-z0-9.]*" named "${formats}")
+  foreach(ending IN LISTS named)
+    string(SUBSTRING "${ending}" 2 -1 ending)
+    list(APPEND TYPES ${ending})
+  endforeach()
+endforeach()
+list(REMOVE_ITEM TYPES ${unclaimed})
+list(REMOVE_DUPLICATES TYPES)
+if(NOT ";${TYPES};" MATCHES ";csv;")
+  fail("the README's table of formats was not found: ${TYPES}")
+endif()
 foreach(ending ${TYPES})
   if(NOT types MATCHES "<glob pattern=\"[*][.]${ending}\"/>")
     fail("no MIME type has *.${ending}")

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "tests/support/damage.h"
 #include "tests/support/fits_builder.h"
 
 namespace timeseries {
@@ -56,6 +57,28 @@ TEST(FitsDamaged, WhatCannotBeReadIsNamed) {
         for (int i = 0; i < 3; ++i) damaged[80 + random() % 720] = static_cast<char>(random());
         refused(damaged);  // a sentence, if it is one
     }
+}
+
+// Each number of the header by itself, then anything anywhere.
+TEST(FitsDamaged, HostileHeadersAreReadOrRefusedInASentence) {
+    const auto path = freshFolder() / "file.fits";
+    const std::string whole = slab({"PCOUNT  = 0", "GCOUNT  = 1", "CRVAL1  = 1.0", "CDELT1  = 1.0",
+                                    "CRPIX1  = 1.0", "BSCALE  = 2.0"});
+    for (const std::string name : {"BITPIX", "NAXIS", "NAXIS1", "NAXIS2", "NAXIS3", "PCOUNT",
+                                   "GCOUNT", "CRVAL1", "CDELT1", "CRPIX1", "BSCALE"})
+        for (const std::string hostile :
+             {"0", "1", "-1", "999", "2147483647", "-2147483648", "9223372036854775807",
+              "99999999999999999999", "1e308", "1e999", "NaN", "'text'", ""}) {
+            const std::size_t card = whole.find(name + std::string(8 - name.size(), ' ') + '=');
+            ASSERT_EQ(card % 80, 0u) << name;
+            std::string damaged = whole;
+            damaged.replace(card + 10, 70, hostile + std::string(70 - hostile.size(), ' '));
+            writeBytes(path, damaged);
+            SCOPED_TRACE(name + " " + hostile);
+            isRefusedInOneSentence(path);
+        }
+    writeBytes(path, whole);
+    damageInRounds(path, path);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tests/support/array_builder.h"
+#include "tests/support/damage.h"
 #include "tests/support/shared_data.h"
 
 namespace timeseries {
@@ -171,6 +172,24 @@ TEST(Mrc, WhatCannotBeReadIsNamed) {
 }
 
 // The file's own statistics are of its values, and its place is what its entry in EMDB tells.
+// Each word of the header by itself, then anything anywhere.
+TEST(Mrc, HostileHeadersAreReadOrRefusedInASentence) {
+    const auto path = freshFolder() / "file.mrc";
+    for (const auto order : {std::endian::little, std::endian::big}) {
+        for (std::size_t at = 1; at <= 56; ++at)
+            for (const std::uint32_t hostile :
+                 {0u, 1u, 0x7fffffffu, 0x80000000u, 0xffffffffu, 0x7f800000u, 0x7f7fffffu}) {
+                const auto damaged =
+                    map(1, order).put(word(at), static_cast<std::int32_t>(hostile));
+                writeBytes(path, slab(damaged));
+                SCOPED_TRACE(testing::Message() << "word " << at << ", " << hostile);
+                isRefusedInOneSentence(path);
+            }
+        writeBytes(path, slab(map(1, order)));
+        damageInRounds(path, path);
+    }
+}
+
 TEST(RealMrc, AMapWithPermutedAxesHoldsWhatItsHeaderSays) {
     const auto path = tests::sharedData("grids/emd_3001.map");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;

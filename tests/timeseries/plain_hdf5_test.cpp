@@ -45,6 +45,69 @@ std::filesystem::path array(hid_t type, std::array<hsize_t, 3> most, std::option
     return path;
 }
 
+// An array of one dimension that is a scale, as H5DSset_scale() makes it.
+void scale(hid_t file, const char* name, const std::vector<double>& places) {
+    const hsize_t size = places.size();
+    const hid_t space = H5Screate_simple(1, &size, nullptr), one = H5Screate(H5S_SCALAR);
+    const hid_t data =
+        H5Dcreate2(file, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, places.data()), 0);
+    const auto say = [&](const char* attribute, const std::string& text) {
+        const hid_t type = H5Tcopy(H5T_C_S1);
+        H5Tset_size(type, text.size() + 1);
+        const hid_t said = H5Acreate2(data, attribute, type, one, H5P_DEFAULT, H5P_DEFAULT);
+        EXPECT_GE(H5Awrite(said, type, text.c_str()), 0);
+        H5Aclose(said);
+        H5Tclose(type);
+    };
+    say("CLASS", "DIMENSION_SCALE");
+    say("NAME", name);
+    say("units", "mm");
+    H5Dclose(data);
+    H5Sclose(one);
+    H5Sclose(space);
+}
+
+// As H5DSattach_scale() does: the HDF5 Dimension Scale Specification, section 3.
+TEST(PlainHdf5, DimensionScalesAreAxes) {
+    std::vector<float> values(60);
+    std::iota(values.begin(), values.end(), 0.0f);
+    const auto path = array<float>(H5T_NATIVE_FLOAT, {3, 4, 5}, std::nullopt, values);
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const std::vector<double> depth{1, 2, 4}, row{-3, -2, -1, 0}, column{0, 0.5, 1, 1.5, 2};
+    scale(file, "depth", depth);
+    scale(file, "row", row);
+    scale(file, "column", column);
+    const hid_t data = H5Dopen2(file, "v", H5P_DEFAULT);
+    const hid_t list = H5Tvlen_create(H5T_STD_REF_OBJ);
+    const hsize_t rank = 3;
+    const hid_t space = H5Screate_simple(1, &rank, nullptr);
+    const hid_t attached =
+        H5Acreate2(data, "DIMENSION_LIST", list, space, H5P_DEFAULT, H5P_DEFAULT);
+    std::array<hobj_ref_t, 3> scales{};
+    std::array<hvl_t, 3> lists{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_GE(H5Rcreate(&scales[i], file, std::array{"depth", "row", "column"}[i], H5R_OBJECT,
+                            hid_t{-1}),
+                  0);
+        lists[i] = {1, &scales[i]};
+    }
+    EXPECT_GE(H5Awrite(attached, list, lists.data()), 0);
+    H5Aclose(attached);
+    H5Sclose(space);
+    H5Tclose(list);
+    H5Dclose(data);
+    H5Fclose(file);
+    const auto reader = open(path);
+    const auto& axes = reader->variables()[tests::indexOf(*reader, "v")].grid->axes();
+    EXPECT_EQ(axes[0].coordinates, column);
+    EXPECT_EQ(axes[1].coordinates, row);
+    EXPECT_EQ(axes[2].coordinates, depth);
+    EXPECT_EQ(axes[2].name, "depth");
+    EXPECT_EQ(axes[0].units, "mm");
+    EXPECT_EQ(tests::valuesOf<float>(*reader, "v"), values);
+}
+
 // NetCDF's own fill is none where the array has another, or none.
 TEST(PlainHdf5, FullScaleIsAValueWhereTheFillIsAnother) {
     std::vector<std::uint16_t> values(60, 100);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tests/support/damage.h"
 #include "tests/support/files.h"
@@ -82,10 +83,10 @@ std::filesystem::path places(const std::string& name, const How& how, double shi
     return file.write(name);
 }
 
-std::filesystem::path flow(const std::string& name, const How& how) {
+std::filesystem::path flow(const std::string& name, const How& how, double time = 0) {
     Plot3dFile file(how);
     begin(file, how);
-    file.reals({0.5, 2, 1e6, 0});
+    file.reals({0.5, 2, 1e6, time});
     std::vector<double> numbers;
     for (int array = 0; array < 5; ++array)
         for (int point = 0; point < kPoints; ++point) numbers.push_back(valueOf(array, point));
@@ -99,8 +100,11 @@ TEST(Plot3d, EveryWayOfWritingIsRead) {
                       (bits & 16) != 0};
         freshFolder();
         places("a.xyz", how);
-        const auto reader = open(flow("a.q", how));
+        const auto reader = open(flow("a.q", how, 3.25));
         EXPECT_EQ(reader->format(), "PLOT3D");
+        EXPECT_EQ(timesOf(*reader), (std::vector{3.25}));
+        EXPECT_EQ(reader->variables()[0].time->name, "time");
+        EXPECT_FALSE(reader->variables()[0].time->counted);
         ASSERT_EQ(reader->variables().size(), 6u);
         for (const auto& [name, array] :
              {std::pair{"Density", 0}, {"Momentum[1]", 2}, {"StagnationEnergy", 4}}) {
@@ -124,6 +128,36 @@ TEST(Plot3d, EveryWayOfWritingIsRead) {
         const auto lengths = valuesOf<double>(*reader, "Momentum magnitude");
         EXPECT_DOUBLE_EQ(lengths[9], std::hypot(valueOf(1, 9), valueOf(2, 9), valueOf(3, 9)));
     }
+}
+
+// Of a series they are the files' own where they tell steps apart, else the numbers in the names.
+TEST(Plot3d, TimesOfASeriesAreThoseOfItsFiles) {
+    freshFolder();
+    places("a.xyz", {});
+    const std::vector files{flow("a.2.q", {}, 0.5), flow("a.4.q", {}, 0.75),
+                            flow("a.8.q", {}, 1.5)};
+    const auto own = openReader(files);
+    EXPECT_EQ(own->variables()[0].time->name, "time");
+    EXPECT_EQ(timesOf(*own), (std::vector{0.5, 0.75, 1.5}));
+    flow("a.4.q", {}, 0.5);
+    const auto twice = openReader(files);
+    EXPECT_EQ(twice->variables()[0].time->name, "number");
+    EXPECT_EQ(timesOf(*twice), (std::vector{2.0, 4.0, 8.0}));
+}
+
+TEST(Plot3d, ATimeThatIsNoNumberIsNone) {
+    for (const bool isDouble : {false, true})
+        for (const double time :
+             {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+              -std::numeric_limits<double>::infinity()}) {
+            const How how{.isDouble = isDouble};
+            freshFolder();
+            places("a.xyz", how);
+            const auto reader = open(flow("a.q", how, time));
+            EXPECT_TRUE(reader->variables()[0].time->counted) << time;
+            EXPECT_EQ(reader->variables()[0].time->name, "step");
+            EXPECT_EQ(timesOf(*reader), (std::vector{0.0}));
+        }
 }
 
 TEST(Plot3d, OfSeveralPlacesThoseWithTheNameMostLikeItsOwnAreTaken) {

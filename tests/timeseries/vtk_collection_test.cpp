@@ -188,6 +188,41 @@ TEST(VtkCollection, AListOfFilesIsASeriesToo) {
                 HasSubstr("expected times that differ, found 0 twice"));
 }
 
+TEST(VtkCollection, AListThatNamesItselfOrAListIsToldSo) {
+    const std::string itself = "expected the names of other files, but it names itself",
+                      list =
+                          "expected a grid, as what a list of files names, found a list of files";
+    const Path folder = tests::freshFolder();
+    const auto refused = [&](const std::string& name, const std::string& bytes) {
+        tests::writeBytes(folder / name, bytes);
+        return refusalOfRead(folder / name);
+    };
+    const auto collected = [](const std::string& of) {
+        return "<VTKFile type=\"Collection\"><Collection>" + member("0", of) +
+               "</Collection></VTKFile>";
+    };
+    const auto series = [](const std::string& of) {
+        return R"({"file-series-version": "1.0", "files": [{"name": ")" + of + R"(", "time": 1}]})";
+    };
+    const auto blocks = [](const std::string& of) {
+        return R"(<VTKFile type="vtkMultiBlockDataSet"><vtkMultiBlockDataSet><DataSet index="0" file=")" +
+               of + R"("/></vtkMultiBlockDataSet></VTKFile>)";
+    };
+    EXPECT_THAT(refused("all.pvd", collected("all.pvd")),
+                HasSubstr("all.pvd: Collection: " + itself));
+    EXPECT_THAT(refused("a.vtu.series", series("a.vtu.series")),
+                HasSubstr("a.vtu.series: files: " + itself));
+    EXPECT_THAT(refused("a.vtm", blocks("a.vtm")), HasSubstr(itself));
+    // What leads back to it by way of another.
+    tests::writeBytes(folder / "b.vtu.series", series("all.pvd"));
+    EXPECT_THAT(refused("all.pvd", collected("b.vtu.series")), HasSubstr("b.vtu.series: " + list));
+    EXPECT_THAT(refusalOfRead(folder / "b.vtu.series"), HasSubstr("all.pvd: " + list));
+    tests::writeBytes(folder / "b.vtm", blocks("all.pvd"));
+    EXPECT_THAT(refused("all.pvd", collected("b.vtm")),
+                HasSubstr("all.pvd: expected a grid, as a block of b.vtm, found a file that names "
+                          "others"));
+}
+
 TEST(VtkCollection, WhatDiffersIsTold) {
     const Path good = tests::write(
         "a.vti", imageText({.points = dataArray("Int32", "p", std::vector<int>(12, 1))}));

@@ -119,11 +119,11 @@ std::uint64_t SolidCells::bytes() const {
            (feet_ ? feet_->size() * sizeof(Foot) : 0);
 }
 
-bool operator==(const SolidCells& a, const SolidCells& b) {
-    const bool sameFeet = a.feet_ == b.feet_ || (a.feet_ && b.feet_ && *a.feet_ == *b.feet_);
-    return sameFeet && a.columns_ == b.columns_ && a.layers_ == b.layers_ && a.types_ == b.types_ &&
-           a.ends_ == b.ends_ && a.faceEnds_ == b.faceEnds_ && a.corners_ == b.corners_ &&
-           a.faces_ == b.faces_ && a.longest_ == b.longest_ && a.tets_ == b.tets_;
+bool SolidCells::joinsAs(const SolidCells& other) const {
+    const bool sameFeet = feet_ == other.feet_ || (feet_ && other.feet_ && *feet_ == *other.feet_);
+    return sameFeet && columns_ == other.columns_ && layers_ == other.layers_ &&
+           types_ == other.types_ && ends_ == other.ends_ && faceEnds_ == other.faceEnds_ &&
+           corners_ == other.corners_ && faces_ == other.faces_ && tets_ == other.tets_;
 }
 
 }  // namespace timeseries

@@ -83,7 +83,11 @@ class SolidCells {
     const glm::dvec3& longest() const { return longest_; }
     std::uint64_t tets() const { return tets_; }  // of all cells
     std::uint64_t bytes() const;
-    friend bool operator==(const SolidCells& a, const SolidCells& b);
+    // Whether the same points are corners of the same cells, wherever they lie.
+    bool joinsAs(const SolidCells& other) const;
+    friend bool operator==(const SolidCells& a, const SolidCells& b) {
+        return a.joinsAs(b) && a.longest_ == b.longest_;
+    }
 
  private:
     void add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint64_t points);

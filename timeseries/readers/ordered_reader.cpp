@@ -67,6 +67,7 @@ class OrderedReader final : public Reader {
     StepSources sources(std::size_t variable, std::size_t step) override {
         return file_->sources(variable, own(variable, step));
     }
+    StepGrids stepGrids(std::size_t variable) override { return file_->stepGrids(variable); }
     void expectToFit(std::size_t file) override { file_->expectToFit(file); }
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override;
 

@@ -92,7 +92,8 @@ std::optional<Plot3dLayout> plot3dLayoutOf(std::string_view start, std::uint64_t
                     layout.hasBlanks = false;
                     layout.kind = Plot3dLayout::Kind::Flow;
                     // Mach number, angle of attack, Reynolds number and time stand before.
-                    layout.first = lengths->end + record + 4 * real + mark;
+                    layout.time = lengths->end + mark + 3 * real;
+                    layout.first = layout.time + real + record;
                     take(layout, points,
                          lengths->end + (2 * record + 4 * real) * grids + 5 * real * points);
                 }

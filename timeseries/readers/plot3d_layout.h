@@ -17,6 +17,7 @@ struct Plot3dLayout {
     bool hasBlanks = false;   // behind the places an integer a point: 0 where there is none
     std::uint64_t real = 4;   // bytes of a number
     std::uint64_t first = 0;  // the byte where those of the first grid begin
+    std::uint64_t time = 0;   // of a flow: the byte of the number that is its first grid's time
     std::vector<std::array<std::size_t, 3>> grids;
 
     std::uint64_t points() const {

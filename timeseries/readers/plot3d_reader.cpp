@@ -112,6 +112,7 @@ class Plot3dReader final : public Reader {
 
  private:
     void place(const fs::path& path);
+    TimeAxis time() const;
     void addVariables(const fs::path& places);
     Values numbers(const fs::path& path, const Plot3dLayout& layout, std::uint64_t first,
                    std::uint64_t count) const {
@@ -153,9 +154,17 @@ void Plot3dReader::place(const fs::path& path) {
     }
 }
 
+TimeAxis Plot3dReader::time() const {
+    const double told =
+        layout_.real == 8
+            ? numbersOf<double>(paths_[0], layout_, layout_.time, 1)[0]
+            : static_cast<double>(numbersOf<float>(paths_[0], layout_, layout_.time, 1)[0]);
+    if (!std::isfinite(told)) return {"step", "", "", {{0, ""}}, true};
+    return {.name = "time", .units = "", .calendar = "", .points = {{told, ""}}};
+}
+
 void Plot3dReader::addVariables(const fs::path& places) {
-    const auto time = std::make_shared<const TimeAxis>(TimeAxis{
-        .name = "step", .units = "", .calendar = "", .points = {{0, ""}}, .counted = true});
+    const auto time = std::make_shared<const TimeAxis>(this->time());
     const ValueType type = layout_.real == 8 ? ValueType::F64 : ValueType::F32;
     struct Quantity {
         const char* name;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "timeseries/grid/field.h"
+#include "timeseries/grid/step_grids.h"
 
 namespace timeseries {
 
@@ -108,6 +109,10 @@ class Reader {
     // What the values of a step come from; no files where that is not known, or the step's places
     // are not those of variables(). REQUIRES: as read(). Throws FileError.
     virtual StepSources sources(std::size_t, std::size_t) { return {}; }
+    // How the grids of the steps are to that of variables(). Where headers do not tell it, the grid
+    // of one more step, the last, is read; no values are. REQUIRES: variable < variables().size().
+    // Throws FileError.
+    virtual StepGrids stepGrids(std::size_t) { return {}; }
     // Throws FileError where files()[file] was not opened with the series, and is now found not to
     // fit it. REQUIRES: file < files().size().
     virtual void expectToFit(std::size_t) {}

@@ -65,15 +65,18 @@ WrittenAt writtenAt(const Path& path) {
 
 class SequenceReader final : public Reader {
  public:
-    SequenceReader(std::span<const Path> paths, OpenOne openOne, const GlanceAt& glanceAt)
+    SequenceReader(std::span<const Path> paths, OpenOne openOne, const GlanceAt& glanceAt,
+                   GridsOf gridsOf)
         : paths_(paths.begin(), paths.end()),
           openOne_(std::move(openOne)),
+          gridsOf_(std::move(gridsOf)),
           isGlanced_(paths.size()) {
         const WrittenAt firstAt = writtenAt(paths_[0]);
         auto first = openOne_(paths_[0]);
         format_ = first->format();
         variables_.assign(first->variables().begin(), first->variables().end());
         axes_.resize(variables_.size());
+        grids_.resize(variables_.size());
         for (std::size_t v = 0; v < variables_.size(); ++v) axes_[v].push_back(variables_[v].time);
         auto glances = glancesAt(glanceAt);
         for (std::size_t f = 1; f < paths_.size(); ++f)
@@ -106,6 +109,9 @@ class SequenceReader final : public Reader {
         return member.reader.sorted(member.variable, member.step);
     }
     StepSources sources(std::size_t variable, std::size_t step) override;
+    StepGrids stepGrids(std::size_t variable) override {
+        return gridsOf_ ? gridsOf_(paths_, *variables_[variable].grid) : grids_[variable];
+    }
     void expectToFit(std::size_t file) override {
         if (isGlanced_[file]) open(file);
     }
@@ -151,8 +157,10 @@ class SequenceReader final : public Reader {
 
     const std::vector<Path> paths_;
     const OpenOne openOne_;
+    const GridsOf gridsOf_;  // none: all files were opened
     std::string format_;
     std::vector<Variable> variables_;               // the first file's, with the times of all
+    std::vector<StepGrids> grids_;                  // [variable]: of the files that were opened
     std::vector<Axes> axes_;                        // [variable], while opening
     std::vector<std::vector<std::size_t>> begins_;  // [variable][file]: its first step, and the end
     std::vector<bool> hasOwnTimes_;                 // [variable]: the files' own
@@ -187,8 +195,11 @@ const Variable& SequenceReader::expectSame(const Variable& expected, std::size_t
 }
 
 void SequenceReader::add(std::size_t file, const Reader& reader) {
-    for (std::size_t v = 0; v < variables_.size(); ++v)
-        axes_[v].push_back(expectSame(variables_[v], file, reader).time);
+    for (std::size_t v = 0; v < variables_.size(); ++v) {
+        const Variable& its = expectSame(variables_[v], file, reader);
+        axes_[v].push_back(its.time);
+        grids_[v].add(*variables_[v].grid, *its.grid);
+    }
     for (const Variable& other : reader.variables())
         if (!placeOf(other, variables_)) tellLeftOut(other.name);
 }
@@ -391,8 +402,9 @@ Field SequenceReader::read(std::size_t variable, std::size_t step) {
 }  // namespace
 
 std::unique_ptr<Reader> openSequence(std::span<const Path> paths, OpenOne openOne,
-                                     const GlanceAt& glanceAt) {
-    return std::make_unique<SequenceReader>(paths, std::move(openOne), glanceAt);
+                                     const GlanceAt& glanceAt, GridsOf gridsOf) {
+    return std::make_unique<SequenceReader>(paths, std::move(openOne), glanceAt,
+                                            std::move(gridsOf));
 }
 
 }  // namespace timeseries

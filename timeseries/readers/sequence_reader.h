@@ -24,6 +24,10 @@ struct Glance {
 // Nothing of a file that has to be opened for its steps. Called on several threads at once.
 using GlanceAt = std::function<std::optional<Glance>(const std::filesystem::path&)>;
 
+// How the grids of the steps are to this, the first file's, where files were glanced at alone.
+using GridsOf =
+    std::function<StepGrids(std::span<const std::filesystem::path> paths, const Grid& first)>;
+
 // The steps of all files, in the order of the paths. Each file is opened once here, for what it
 // says of itself, and again when a step of it is read; few stay open. With `glanceAt` only the
 // first is opened here, and each other when a step of it is read: one that does not fit then, or
@@ -35,6 +39,6 @@ using GlanceAt = std::function<std::optional<Glance>(const std::filesystem::path
 // note. REQUIRES: paths is not empty. Throws FileError, naming two files, where variables, types,
 // units or grids differ, and where times of files of several steps overlap.
 std::unique_ptr<Reader> openSequence(std::span<const std::filesystem::path> paths, OpenOne openOne,
-                                     const GlanceAt& glanceAt = {});
+                                     const GlanceAt& glanceAt = {}, GridsOf gridsOf = {});
 
 }  // namespace timeseries

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <stdexcept>
@@ -50,6 +51,7 @@ class FoamReader final : public Reader {
     std::span<const Variable> variables() const override { return variables_; }
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
+    StepGrids stepGrids(std::size_t variable) override;
     StepSources sources(std::size_t variable, std::size_t step) override;
 
  private:
@@ -141,6 +143,23 @@ std::shared_ptr<const Grid> FoamReader::gridAt(bool atPoints) {
         throw FileError(fmt::format("{}: expected cells that take space, found that {}",
                                     open_[0].faces.string(), flaw.what()));
     }
+}
+
+// Each time has files of its own where its mesh is another: of points alone where these move.
+StepGrids FoamReader::stepGrids(std::size_t variable) {
+    const auto& times = sources_[variable].times;
+    const auto first = case_.meshAt(times.front());
+    StepGrids grids;
+    for (const std::size_t time : times) {
+        auto files = case_.meshAt(time);
+        if (files == first) continue;
+        if (files.size() == first.size())
+            for (std::size_t part = 0; part < files.size(); ++part)
+                files[part].points = first[part].points;
+        const bool moved = files == first;
+        grids.are = std::max(grids.are, moved ? StepGrids::Are::Moved : StepGrids::Are::Own);
+    }
+    return grids;
 }
 
 StepSources FoamReader::sources(std::size_t variable, std::size_t step) {

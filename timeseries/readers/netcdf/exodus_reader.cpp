@@ -42,6 +42,10 @@ class ExodusReader final : public Reader {
     std::span<const std::filesystem::path> files() const override { return paths_; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
+    StepGrids stepGrids(std::size_t) override {
+        const bool moves = !displacements_.empty() && steps_ > 1;
+        return {.are = moves ? StepGrids::Are::Moved : StepGrids::Are::One};
+    }
 
  private:
     void addTime();

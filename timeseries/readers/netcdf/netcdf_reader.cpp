@@ -53,6 +53,7 @@ class CfReader final : public Reader {
     bool readsPlanes(std::size_t variable, std::size_t step) override;
     StepSources sources(std::size_t variable, std::size_t step) override;
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override;
+    StepGrids stepGrids(std::size_t variable) override;
 
  private:
     CfFile& open(std::size_t index);
@@ -362,6 +363,21 @@ bool CfReader::readsPlanes(std::size_t variable, std::size_t step) {
     const NcVariable* const found = open(index).header().find(source.name, "");
     // Chunks would be unpacked once for each slab that they reach into.
     return found && found->chunkBytes == 0 && z && (!y || *z < *y) && (!x || *z < *x);
+}
+
+StepGrids CfReader::stepGrids(std::size_t variable) {
+    const auto& columns = contents_[0][variable].axes.columns;
+    const auto& mesh = variables_[variable].grid->mesh();
+    const std::size_t steps = variables_[variable].time->points.size();
+    if (!columns || !mesh || steps == 1) return {};
+    const auto [file, step] = fileOf(variable, steps - 1);
+    if (!columns->inTime && file == 0) return {};
+    try {
+        const bool moved = *meshAt(file, variable, step) != *mesh;
+        return {.are = moved ? StepGrids::Are::Moved : StepGrids::Are::One};
+    } catch (const std::invalid_argument&) {  // told where that step is read
+        return {};
+    }
 }
 
 Field CfReader::read(std::size_t variable, std::size_t seriesStep) {

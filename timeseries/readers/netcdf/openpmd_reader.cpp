@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -50,6 +51,7 @@ class OpenPmdReader final : public Reader {
     std::span<const Variable> variables() const override { return variables_; }
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
+    StepGrids stepGrids(std::size_t variable) override;
     StepSources sources(std::size_t variable, std::size_t step) override {
         if (sources_[variable].steps[step].species || file_.sources().empty()) return {};
         return {paths_, step};
@@ -234,6 +236,18 @@ std::shared_ptr<const Grid> OpenPmdReader::scattered(const Components& species) 
     }
     placed_ = &species;
     return places_;
+}
+
+StepGrids OpenPmdReader::stepGrids(std::size_t variable) {
+    const auto& steps = sources_[variable].steps;
+    if (!steps.front().species || steps.size() == 1) return {};
+    StepGrids grids{.are = StepGrids::Are::Own, .least = std::numeric_limits<std::uint64_t>::max()};
+    for (const OpenPmdStep& step : steps) {
+        const std::uint64_t particles = openPmdParticles(file_, *step.species);
+        grids.least = std::min(grids.least, particles);
+        grids.most = std::max(grids.most, particles);
+    }
+    return grids;
 }
 
 Field OpenPmdReader::read(std::size_t variable, std::size_t step) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -42,6 +43,7 @@ class VtkHdfReader final : public Reader {
     std::span<const std::filesystem::path> files() const override { return paths_; }
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
+    StepGrids stepGrids(std::size_t variable) override;
 
  private:
     void addTime();
@@ -141,6 +143,27 @@ void VtkHdfReader::addArrays(bool atPoints) {
         for (const ComponentVariable& each : componentsOf(name, *array.type, count))
             add({&array, own, atPoints, each.component}, each);
     }
+}
+
+// Lists of cells that several steps share are told by where they begin.
+StepGrids VtkHdfReader::stepGrids(std::size_t variable) {
+    const VtkHdfStep& first = layout_.steps()[0];
+    StepGrids grids{.least = std::numeric_limits<std::uint64_t>::max()};
+    for (const VtkHdfStep& step : layout_.steps()) {
+        const bool joinedAlike = step.cells == first.cells && step.ids == first.ids &&
+                                 step.faces == first.faces && step.parts == first.parts &&
+                                 layout_.pointsOf(step) == layout_.pointsOf(first) &&
+                                 layout_.cellsOf(step) == layout_.cellsOf(first);
+        const std::uint64_t points =
+            sources_[variable].atPoints ? layout_.pointsOf(step) : layout_.cellsOf(step);
+        grids.least = std::min(grids.least, points);
+        grids.most = std::max(grids.most, points);
+        if (!joinedAlike)
+            grids.are = StepGrids::Are::Own;
+        else if (step.points != first.points)
+            grids.are = std::max(grids.are, StepGrids::Are::Moved);
+    }
+    return grids;
 }
 
 Field VtkHdfReader::read(std::size_t variable, std::size_t step) {

@@ -41,9 +41,20 @@ std::vector<VtkMember> joined(std::vector<Listed> all) {
 
 }  // namespace
 
+void expectOtherVtk(const std::filesystem::path& by, std::string_view place,
+                    const std::filesystem::path& named) {
+    std::error_code ignored;
+    if (named.filename() == by.filename() && std::filesystem::equivalent(by, named, ignored))
+        failVtk(by, place, "expected the names of other files, but it names itself");
+}
+
 std::vector<VtkMember> vtkMembersInOrder(const std::filesystem::path& path, std::string_view list,
                                          std::vector<VtkMember> members) {
     if (members.empty()) failVtk(path, list, "expected a file, found none");
+    for (const VtkMember& each : members) {
+        expectOtherVtk(path, list, each.path);
+        for (const auto& part : each.beside) expectOtherVtk(path, list, part);
+    }
     const auto timed =
         std::ranges::count_if(members, [](const VtkMember& each) { return !!each.time; });
     if (timed != 0 && static_cast<std::size_t>(timed) != members.size())

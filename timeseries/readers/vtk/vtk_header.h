@@ -143,6 +143,9 @@ VtkHeader readVtkXmlHeader(const XmlFile& file);
 bool isVtkCollection(const XmlFile& file);
 // In the order of their times; parts of one time, or without any, are one member. Throws FileError.
 std::vector<VtkMember> readVtkCollection(const XmlFile& file);
+// Throws FileError when the file that `by` names at `place` is that file itself.
+void expectOtherVtk(const std::filesystem::path& by, std::string_view place,
+                    const std::filesystem::path& named);
 // The members of ParaView's JSON.
 std::vector<VtkMember> readVtkSeries(const std::filesystem::path& path);
 // The members of a list, which has this name in the file. Throws FileError when there are none,

@@ -173,7 +173,13 @@ class BlockList {
                     fmt::format("expected files that differ, found {} again",
                                 path.filename().string()));
         if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
-        const XmlFile file = readXml(path);
+        const bool isList = isVtkSeries(path);
+        const XmlFile file = isList ? XmlFile() : readXml(path);
+        const std::string_view type = isList ? "" : rootOf(file).attribute("type");
+        if (isList || type == "Collection" || isVtkMultiBlock(type))
+            failVtk(path, "",
+                    fmt::format("expected a grid, as a block of {}, found a file that names others",
+                                by_.filename().string()));
         if (isEmptyVtkFile(file)) return;
         blocks.push_back(openVtkXml(file));
         levels.push_back(level);
@@ -220,8 +226,11 @@ VtkBlocks readVtkBlocks(const XmlFile& file) {
     std::vector<Named> all;
     addNamed(file, file.root, 0, all);
     BlockList list(file.path);
-    for (const auto& [element, level] : all)
-        list.add(file.path.parent_path() / element->attribute("file"), placeOf(*element), level);
+    for (const auto& [element, level] : all) {
+        const Path block = file.path.parent_path() / element->attribute("file");
+        expectOtherVtk(file.path, placeOf(*element), block);
+        list.add(block, placeOf(*element), level);
+    }
     VtkBlocks found{composite.format, 0, std::move(list.blocks), {}};
     if (found.blocks.empty())
         failVtk(file.path, file.root.name, "expected a DataSet with a file that holds points");

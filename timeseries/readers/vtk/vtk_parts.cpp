@@ -307,6 +307,7 @@ void forEachVtkPart(const XmlFile& file, const std::function<bool(const XmlFile&
         if (!seen.insert(std::filesystem::weakly_canonical(path, ignored)).second)
             failVtk(file.path, placeOf(*piece),
                     fmt::format("expected files that differ, found {} again", source));
+        expectOtherVtk(file.path, placeOf(*piece), path);
         if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
         const XmlFile part = readXml(path);
         if (const auto found = rootOf(part).attribute("type"); found != type)
@@ -317,14 +318,20 @@ void forEachVtkPart(const XmlFile& file, const std::function<bool(const XmlFile&
     }
 }
 
+// It may lead back to the list that names it.
+constexpr std::string_view kListInList =
+    "expected a grid, as what a list of files names, found a list of files";
+
 VtkContents vtkContentsOf(const Path& path) {
     if (const std::string flaw = flawOfFile(path); !flaw.empty()) failVtk(path, "", flaw);
     if (isVtkLegacy(path)) return {openVtkLegacy(path), {}, {}};
+    if (isVtkSeries(path)) failVtk(path, "", kListInList);
     return vtkContentsOf(readXml(path));
 }
 
 VtkContents vtkContentsOf(const XmlFile& file) {
     const std::string_view type = rootOf(file).attribute("type");
+    if (isVtkCollection(file)) failVtk(file.path, "", kListInList);
     const bool areParts = !vtkTypeOfParts(type).empty();
     if (!areParts && !isVtkMultiBlock(type)) return {openVtkXml(file), {}, {}};
     VtkContents contents = areParts ? joined(file) : ofBlocks(file.path, readVtkBlocks(file));

@@ -11,6 +11,7 @@
 #include "timeseries/readers/vtk/vtk_glance.h"
 #include "timeseries/readers/vtk/vtk_grid.h"
 #include "timeseries/readers/vtk/vtk_parts.h"
+#include "timeseries/readers/vtk/vtk_step_grids.h"
 #include "timeseries/readers/vtk/vtk_variables.h"
 
 namespace timeseries {
@@ -76,6 +77,9 @@ class VtkReader final : public Reader {
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
     StepSources sources(std::size_t variable, std::size_t step) override;
+    StepGrids stepGrids(std::size_t variable) override {
+        return vtkStepGrids(members_, *variables_[variable].grid);
+    }
 
  private:
     void addTime();
@@ -208,7 +212,12 @@ std::unique_ptr<Reader> openOne(const Path& path) {
 
 std::unique_ptr<Reader> openVtk(std::span<const Path> paths) {
     if (paths.size() == 1) return openOne(paths[0]);
-    return openSequence(paths, openOne, vtkGlanceAt);
+    return openSequence(paths, openOne, vtkGlanceAt,
+                        [](std::span<const Path> files, const Grid& first) {
+                            std::vector<VtkMember> members;
+                            for (const Path& file : files) members.push_back({file, std::nullopt});
+                            return vtkStepGrids(members, first);
+                        });
 }
 
 }  // namespace timeseries

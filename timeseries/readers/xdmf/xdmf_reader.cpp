@@ -48,6 +48,7 @@ class XdmfReader final : public Reader {
     std::span<const Variable> variables() const override { return variables_; }
     std::span<const DamagedVariable> damaged() const override { return damaged_; }
     Field read(std::size_t variable, std::size_t step) override;
+    StepGrids stepGrids(std::size_t variable) override;
 
  private:
     void addSeries(std::size_t series);
@@ -211,6 +212,17 @@ Values XdmfReader::rowsOf(const AttributeOf& source, const XdmfStep& step, const
             all);
     }
     return all;
+}
+
+StepGrids XdmfReader::stepGrids(std::size_t variable) {
+    const AttributeOf& source = sources_[variable];
+    const auto& steps = series_[source.series].steps;
+    const std::string first = XdmfGrid::sourceOf(document_, items_, steps[0]);
+    const auto other = std::find_if(steps.rbegin(), steps.rend(), [&](const XdmfStep& step) {
+        return XdmfGrid::sourceOf(document_, items_, step) != first;
+    });
+    if (other == steps.rend()) return {};
+    return {.are = heldAgainst(*variables_[variable].grid, *open(*other).at(source.atPoints))};
 }
 
 Field XdmfReader::read(std::size_t variable, std::size_t step) {
