@@ -31,6 +31,9 @@ void text(ImDrawList& list, glm::vec2 at, std::string_view what, ImU32 color, fl
 std::string shortened(std::string_view what, const std::function<bool(std::string_view)>& fits);
 std::string fitting(ImFont& font, std::string_view what, float width);
 float widthOf(ImFont& font, std::string_view what);
+// The text in lines of a width, broken at spaces and after '/', and within a word only where it
+// alone is too long.
+std::string inLines(ImFont& font, std::string_view what, float width);
 
 // What happened to a rectangle that is pressed and dragged.
 struct Pressing {
