@@ -152,10 +152,37 @@ bool textButton(const Theme& theme, const char* id, const Rect& at, std::string_
     return p.clicked;
 }
 
+float segmentsWidth(const Theme& theme, std::span<const char* const> labels) {
+    float most = 0;
+    for (const char* label : labels) most = std::max(most, widthOf(*theme.small, label));
+    return (most + 8 * theme.scale) * static_cast<float>(labels.size());
+}
+
+std::vector<Rect> segments(const Theme& theme, const Rect& at,
+                           std::span<const char* const> labels) {
+    const auto count = static_cast<float>(labels.size());
+    std::vector<float> widths(labels.size(), at.size().x / count);
+    if (segmentsWidth(theme, labels) > at.size().x) {
+        float sum = 0;
+        for (std::size_t i = 0; i < labels.size(); ++i)
+            sum += widths[i] = widthOf(*theme.small, labels[i]);
+        const float rest = (at.size().x - sum) / count;
+        for (float& width : widths) width = rest > 0 ? width + rest : width * at.size().x / sum;
+    }
+    std::vector<Rect> cells;
+    float left = at.min.x;
+    for (const float width : widths) {
+        cells.push_back({{std::round(left), at.min.y}, {std::round(left + width), at.max.y}});
+        left += width;
+    }
+    return cells;
+}
+
 std::optional<std::size_t> segmented(const Theme& theme, const char* id, const Rect& at,
                                      std::span<const char* const> labels, std::size_t chosen) {
     std::optional<std::size_t> picked;
-    const float s = theme.scale, width = at.size().x / static_cast<float>(labels.size());
+    const float s = theme.scale;
+    const std::vector<Rect> cells = segments(theme, at, labels);
     list().AddRectFilled(im(at.min), im(at.max), kField, 5 * s);
     ImGui::PushID(id);
     const ImGuiID own = ImGui::GetID("##focus");
@@ -165,14 +192,13 @@ std::optional<std::size_t> segmented(const Theme& theme, const char* id, const R
         if (next != chosen) picked = next;
     }
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        const float left = at.min.x + width * static_cast<float>(i);
-        const Rect cell{{std::round(left), at.min.y}, {std::round(left + width), at.max.y}};
+        const Rect& cell = cells[i];
         const Pressing p = area(labels[i], cell);
         if (p.pressed) focus().touch(own);
         if (i == chosen)
             list().AddRectFilled(im(cell.min + glm::vec2(2 * s)), im(cell.max - glm::vec2(2 * s)),
                                  kRaised, 4 * s);
-        text(theme, cell.centre(), labels[i],
+        text(theme, cell.centre(), fitting(*theme.small, labels[i], cell.size().x - 4 * s),
              i == chosen ? kAccent
              : p.hovered ? kText
                          : kDim,
