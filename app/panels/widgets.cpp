@@ -1,6 +1,7 @@
 #include "app/panels/widgets.h"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <cmath>
@@ -26,6 +27,26 @@ bool moved(const Focus::Turn& turn, double& fraction, double step) {
     if ((turn.toEnd == 0 && turn.by == 0) || to == fraction) return false;
     fraction = to;
     return true;
+}
+
+// Keeps the popup that begins next in the window: where it was asked to be, or as much higher as
+// its height of the last frame wants, and no taller than there is room. ImGui does so only for
+// popups that nobody has placed.
+void keepInside(const char* id) {
+    ImGuiNextWindowData& next = ImGui::GetCurrentContext()->NextWindowData;
+    if ((next.Flags & ImGuiNextWindowDataFlags_HasPos) == 0) return;
+    const ImVec2 room = ImGui::GetIO().DisplaySize;
+    const float edge = 0.5f * ImGui::GetFontSize();
+    const std::string name = fmt::format("##Popup_{:08x}", ImGui::GetID(id));
+    if (const ImGuiWindow* window = ImGui::FindWindowByName(name.c_str())) {
+        const float height = window->SizeFull.y;
+        const float top = next.PosVal.y - next.PosPivotVal.y * height;
+        const float inside = std::max(edge, std::min(top, room.y - edge - height));
+        ImGui::SetNextWindowPos({next.PosVal.x, inside + next.PosPivotVal.y * height},
+                                ImGuiCond_Always, next.PosPivotVal);
+    }
+    if ((next.Flags & ImGuiNextWindowDataFlags_HasSizeConstraint) == 0)
+        ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, room.y - 2 * edge});
 }
 
 }  // namespace
@@ -351,6 +372,7 @@ bool beginPopup(const char* id) {
     // The regions' own windows have no padding.
     const float unit = ImGui::GetFontSize();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.75f * unit, 0.65f * unit});
+    keepInside(id);
     const bool open = ImGui::BeginPopup(id);
     ImGui::PopStyleVar();
     if (!open) return false;
