@@ -85,12 +85,16 @@ void AnimationPage::time(PanelContext& context, Form& form) {
     const auto change = [&](const auto& set) {
         edit(context, {}, [&](Explorer& e) { set(e.play.time); });
     };
-    // A choice, and a number with its meaning, in one row.
-    const auto split = [&](const Rect& row) {
-        return std::pair{Rect{row.min, {row.max.x - 118 * s, row.max.y}},
-                         Rect{{row.max.x - 56 * s, row.min.y}, row.max}};
+    // A choice, and a number with its meaning, in one row, or in two where that is too narrow.
+    const auto split = [&](const char* label, std::span<const char* const> labels) {
+        Rect choice = form.row(label), number = choice;
+        if (choice.size().x - 118 * s < segmentsWidth(theme, labels))
+            number = form.row(" ");
+        else
+            choice.max.x -= 118 * s;
+        return std::pair{choice, Rect{{number.max.x - 56 * s, number.min.y}, number.max}};
     };
-    const auto [pace, speed] = split(form.row("Pace"));
+    const auto [pace, speed] = split("Pace", kPaces);
     if (const auto chosen =
             segmented(theme, "pace", pace, kPaces, static_cast<std::size_t>(now.pace)))
         change([&](auto& t) { setPace(t, static_cast<timeseries::Pace>(*chosen), axis); });
@@ -105,7 +109,7 @@ void AnimationPage::time(PanelContext& context, Form& form) {
         });
     const auto& time = context.exploration.playback().time;
     if (time && time->whyEven()) form.note(*time->whyEven());
-    const auto [way, stride] = split(form.row("Steps"));
+    const auto [way, stride] = split("Steps", kDirections);
     if (const auto chosen =
             segmented(theme, "way", way, kDirections, static_cast<std::size_t>(now.direction)))
         change([&](auto& t) { t.direction = static_cast<timeseries::Direction>(*chosen); });

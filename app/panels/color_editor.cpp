@@ -1,5 +1,6 @@
 #include "app/panels/color_editor.h"
 
+#include <algorithm>
 #include <array>
 
 #include "app/choices/choice_text.h"
@@ -46,20 +47,26 @@ bool ColorEditor::draw(PanelContext& context, LayerChoice& layer) {
     const glm::vec2 at = vec(ImGui::GetCursorScreenPos());
     bool changed = false;
     if (ImGui::IsWindowAppearing()) hex_ = lo_ = hi_ = {};  // of another layer, perhaps
+    const Explorer& now = context.exploration.explorer();
+    if (now.variable != variable_ || now.layers.size() < layers_) maps_.clear();
+    variable_ = now.variable;
+    layers_ = now.layers.size();
+    MapChoice& last = maps_[ImGui::GetID("map")];
+    if (byValue) last = std::get<MapChoice>(*layer.color);
     if (const auto kind = segmented(context.theme, "kind", {at, at + glm::vec2(width, 28 * s)},
                                     kKinds, byValue ? 1 : 0)) {
         if (*kind == 1)
-            layer.color = MapChoice{};
+            layer.color = last;
         else
             layer.color = kLayerColors[0];
         changed = true;
     }
     const glm::vec2 below = at + glm::vec2(0, 34 * s);
     constexpr std::array kModels = {"Auto", "Points", "Cells"};
-    const std::size_t now = layer.model ? 1 + static_cast<std::size_t>(*layer.model) : 0;
-    if (const auto model = segmented(context.theme, "model",
-                                     {below, below + glm::vec2(width, 28 * s)}, kModels, now)) {
-        layer.model = *model == 0 ? std::nullopt : std::optional(static_cast<Model>(*model - 1));
+    const std::size_t model = layer.model ? 1 + static_cast<std::size_t>(*layer.model) : 0;
+    if (const auto chosen = segmented(context.theme, "model",
+                                      {below, below + glm::vec2(width, 28 * s)}, kModels, model)) {
+        layer.model = *chosen == 0 ? std::nullopt : std::optional(static_cast<Model>(*chosen - 1));
         changed = true;
     }
     ImGui::SetCursorScreenPos(im(at + glm::vec2(0, 72 * s)));
@@ -97,7 +104,9 @@ bool ColorEditor::drawConstant(PanelContext& context, LayerChoice& layer, float 
             hex_.refuse(error.what());
         }
     };
-    ImGui::SetNextItemWidth(width);
+    // Its height is about its width: smaller where the window is low.
+    const float room = ImGui::GetIO().DisplaySize.y - 190 * s;
+    ImGui::SetNextItemWidth(std::clamp(room, 120 * s, width));
     if (ImGui::ColorPicker3("##picker", c.data(),
                             ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoSmallPreview |
                                 ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_NoInputs |

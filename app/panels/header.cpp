@@ -70,11 +70,13 @@ void menu(PanelContext& context, std::span<const Named> recent) {
     item("All keys", "H", Command::Help);
     if (recent.empty()) return;
     separator();
-    int id = 0;
-    for (const Named& named : recent.first(std::min(kRecent, recent.size()))) {
-        ImGui::PushID(++id);
-        if (popupRow(context.theme, shortName(named), width, "recent"))
-            context.requests.open = named;
+    const auto offered = recent.first(std::min(kRecent, recent.size()));
+    const std::vector<std::string> notes = recentNotes(offered);
+    for (std::size_t i = 0; i < offered.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        if (popupRow(context.theme, shortName(offered[i]), width,
+                     fitting(*context.theme.small, notes[i], 0.6f * width)))
+            context.requests.open = offered[i];
         ImGui::PopID();
     }
 }
@@ -102,6 +104,16 @@ void variableChoice(PanelContext& context, const Rect& at, const Shown& shown) {
 }
 
 }  // namespace
+
+std::vector<std::string> recentNotes(std::span<const Named> recent) {
+    std::vector<std::string> notes;
+    for (const Named& named : recent) {
+        const auto same = std::ranges::count_if(
+            recent, [&](const Named& other) { return shortName(other) == shortName(named); });
+        notes.push_back(same > 1 ? named.front().parent_path().string() : "recent");
+    }
+    return notes;
+}
 
 void drawHeader(PanelContext& context, const Rect& at, std::span<const Named> recent) {
     const float s = context.theme.scale, left = at.min.x + kMargin * s,

@@ -89,6 +89,14 @@ void Interface::keepSelection(const Explorer& now) {
     choices_.layer = std::max(first, std::min(choices_.layer, count == 0 ? 0 : count - 1));
 }
 
+// A layer that comes back is the selected one, as when it was added.
+void Interface::redo(Exploration& exploration) {
+    const std::vector<LayerChoice> before = exploration.explorer().layers;
+    exploration.redo();
+    const std::vector<LayerChoice>& now = exploration.explorer().layers;
+    if (now.size() == before.size() + 1 && !now.back().motion) choices_.layer = now.size() - 1;
+}
+
 void Interface::forgetOtherData(const Explorer& now) {
     if (sameData(now, probed_)) return;
     probe_.clear();
@@ -246,7 +254,7 @@ bool Interface::obey(Exploration& exploration, Command command) {
             if (exploration.canUndo()) exploration.undo();
             return true;
         case Command::Redo:
-            if (exploration.canRedo()) exploration.redo();
+            if (exploration.canRedo()) redo(exploration);
             return true;
         default:
             break;

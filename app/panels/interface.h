@@ -60,6 +60,7 @@ class Interface {
  private:
     void takeKey(Exploration& exploration, const std::optional<KeyPress>& key, Requests& requests);
     void keepSelection(const Explorer& now);
+    void redo(Exploration& exploration);
     void forgetOtherData(const Explorer& now);
     void drawPicture(PanelContext& context, const Surroundings& around);
     void drawSide(PanelContext& context, const Surroundings& around);

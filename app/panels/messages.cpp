@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 #include <utility>
 
@@ -18,7 +17,8 @@ constexpr float kLines = 4, kMostLines = 14;
 // A message with its place on the screen.
 struct Card {
     Rect at, inner;
-    std::string text;  // begin and end of what is too long: what it is about, and what is wrong
+    std::string
+        text;  // in lines; begin and end of what is too long: what it is about, and what is wrong
     bool isLong = false;
 };
 
@@ -32,16 +32,18 @@ Card cardOf(const PanelContext& context, const std::string& message, float botto
     const ImFont& font = *context.theme.text;
     const float line = font.FontSize;
     const auto heightOf = [&](std::string_view text) {
-        const Characters c(text);
-        return font.CalcTextSizeA(line, FLT_MAX, wrap, c.begin, c.end).y;
+        const std::string lines = inLines(*context.theme.text, text, wrap);
+        return line * static_cast<float>(1 + std::ranges::count(lines, '\n'));
     };
     const auto isFew = [&](std::string_view text) {
         return heightOf(text) < (kLines + 0.5f) * line;
     };
     Card card{.at = {}, .inner = {}, .text = message, .isLong = !isFew(message)};
     if (!opened) card.text = shortened(message, isFew);
+    card.text = inLines(*context.theme.text, card.text, wrap);
     const float most = std::min(kMostLines * line, 0.4f * picture.size().y);
-    const float height = std::min(heightOf(card.text), most);
+    const float height =
+        std::min(line * static_cast<float>(1 + std::ranges::count(card.text, '\n')), most);
     const float top = std::floor(bottom - height - (card.isLong || hasButtons ? 56 : 22) * s);
     card.at = {{left, top}, {right, bottom}};
     card.inner = {{left + 16 * s, top + 11 * s}, {left + 16 * s + wrap, top + 11 * s + height}};
@@ -60,10 +62,8 @@ void drawGround(const Theme& theme, const Rect& at, bool isError) {
 void drawText(const Theme& theme, const Card& card) {
     ImGui::SetCursorScreenPos(im(card.inner.min));
     ImGui::BeginChild("##text", {card.inner.size().x + 14 * theme.scale, card.inner.size().y});
-    ImGui::PushTextWrapPos(card.inner.size().x);
     const Characters c(card.text);
     ImGui::TextUnformatted(c.begin, c.end);
-    ImGui::PopTextWrapPos();
     ImGui::EndChild();
 }
 

@@ -1,7 +1,11 @@
 #include "app/panels/probe_page.h"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+
+#include "render/points/globe.h"
 
 namespace app::panels {
 namespace {
@@ -11,12 +15,15 @@ void line(const Theme& theme, Form& form, std::string_view label, std::string_vi
     text(theme, {row.min.x, row.centre().y}, fitting(*theme.text, what, row.size().x));
 }
 
-// As one length where all axes have one unit, and along each axis.
+// As one length where all axes have one unit, or along the Earth's surface, and along each axis.
 void ruler(PanelContext& context, Form& form, const Reading& a, const Reading& b,
            const timeseries::Grid& grid) {
     const glm::dvec3 apart = b.position - a.position;
     const auto& axes = grid.axes();
-    if (axes[0].units == axes[1].units && axes[1].units == axes[2].units)
+    if (render::isGeographic(grid))
+        line(context.theme, form, "Distance",
+             fmt::format("{:.6g} km", kilometresApart(a.position, b.position)));
+    else if (axes[0].units == axes[1].units && axes[1].units == axes[2].units)
         line(context.theme, form, "Distance",
              withUnit(fmt::format("{:.6g}", glm::length(apart)), axes[0].units));
     for (int i = 0; i < 3; ++i) {
@@ -28,6 +35,18 @@ void ruler(PanelContext& context, Form& form, const Reading& a, const Reading& b
 }
 
 }  // namespace
+
+double kilometresApart(const glm::dvec3& a, const glm::dvec3& b) {
+    constexpr double kMeanRadius = 6371.0088;  // Moritz, Geodetic Reference System 1980
+    const auto squaredSine = [](double degrees) {
+        const double sine = std::sin(0.5 * degrees * render::kPerDegree);
+        return sine * sine;
+    };
+    const double h = squaredSine(b.y - a.y) + std::cos(a.y * render::kPerDegree) *
+                                                  std::cos(b.y * render::kPerDegree) *
+                                                  squaredSine(b.x - a.x);
+    return 2 * kMeanRadius * std::asin(std::min(1.0, std::sqrt(h)));
+}
 
 std::string timesNote(const Reading& first, const Reading* second, const Shown& shown) {
     const timeseries::TimeAxis& time = *shown.dataset.variable.time;

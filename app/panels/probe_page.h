@@ -12,6 +12,9 @@ namespace app::panels {
 // else "". `second`: another end of the ruler, whose time is told, or null.
 std::string timesNote(const Reading& first, const Reading* second, const Shown& shown);
 
+// Of longitudes and latitudes in degrees, by the great circle (haversines); heights do not count.
+double kilometresApart(const glm::dvec3& a, const glm::dvec3& b);
+
 class ProbePage {
  public:
     void draw(PanelContext& context, const Rect& at);

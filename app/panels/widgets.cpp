@@ -1,6 +1,7 @@
 #include "app/panels/widgets.h"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <cmath>
@@ -26,6 +27,26 @@ bool moved(const Focus::Turn& turn, double& fraction, double step) {
     if ((turn.toEnd == 0 && turn.by == 0) || to == fraction) return false;
     fraction = to;
     return true;
+}
+
+// Keeps the popup that begins next in the window: where it was asked to be, or as much higher as
+// its height of the last frame wants, and no taller than there is room. ImGui does so only for
+// popups that nobody has placed.
+void keepInside(const char* id) {
+    ImGuiNextWindowData& next = ImGui::GetCurrentContext()->NextWindowData;
+    if ((next.Flags & ImGuiNextWindowDataFlags_HasPos) == 0) return;
+    const ImVec2 room = ImGui::GetIO().DisplaySize;
+    const float edge = 0.5f * ImGui::GetFontSize();
+    const std::string name = fmt::format("##Popup_{:08x}", ImGui::GetID(id));
+    if (const ImGuiWindow* window = ImGui::FindWindowByName(name.c_str())) {
+        const float height = window->SizeFull.y;
+        const float top = next.PosVal.y - next.PosPivotVal.y * height;
+        const float inside = std::max(edge, std::min(top, room.y - edge - height));
+        ImGui::SetNextWindowPos({next.PosVal.x, inside + next.PosPivotVal.y * height},
+                                ImGuiCond_Always, next.PosPivotVal);
+    }
+    if ((next.Flags & ImGuiNextWindowDataFlags_HasSizeConstraint) == 0)
+        ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, room.y - 2 * edge});
 }
 
 }  // namespace
@@ -66,6 +87,46 @@ std::string shortened(std::string_view what, const std::function<bool(std::strin
 
 std::string fitting(ImFont& font, std::string_view what, float width) {
     return shortened(what, [&](std::string_view text) { return widthOf(font, text) <= width; });
+}
+
+std::string inLines(ImFont& font, std::string_view what, float width) {
+    std::string out;
+    std::size_t line = 0;  // where it begins in `out`
+    const auto fits = [&](std::string_view more) {
+        return widthOf(font, std::string(out, line).append(more)) <= width;
+    };
+    const auto breakLine = [&] {
+        while (out.size() > line && out.back() == ' ') out.pop_back();
+        out += '\n';
+        line = out.size();
+    };
+    while (!what.empty()) {
+        const std::size_t end = what.find_first_of(" /\n");
+        const bool isLast = end == std::string_view::npos;
+        std::string_view word = what.substr(0, isLast || what[end] != '/' ? end : end + 1);
+        what.remove_prefix(word.size());
+        if (!fits(word) && out.size() > line) breakLine();
+        for (; !fits(word); breakLine()) {
+            std::size_t bytes = 0;  // as many as fit, whole UTF-8 characters, one at least
+            do {
+                std::size_t next = bytes + 1;
+                while (next < word.size() &&
+                       (static_cast<unsigned char>(word[next]) & 0xC0) == 0x80)
+                    ++next;
+                if (bytes > 0 && !fits(word.substr(0, next))) break;
+                bytes = next;
+            } while (bytes < word.size());
+            out += word.substr(0, bytes);
+            word.remove_prefix(bytes);
+            if (word.empty()) break;
+        }
+        out += word;
+        for (; !what.empty() && (what[0] == ' ' || what[0] == '\n'); what.remove_prefix(1)) {
+            out += what[0];
+            if (what[0] == '\n') line = out.size();
+        }
+    }
+    return out;
 }
 
 Pressing area(const char* id, const Rect& at) {
@@ -112,10 +173,37 @@ bool textButton(const Theme& theme, const char* id, const Rect& at, std::string_
     return p.clicked;
 }
 
+float segmentsWidth(const Theme& theme, std::span<const char* const> labels) {
+    float most = 0;
+    for (const char* label : labels) most = std::max(most, widthOf(*theme.small, label));
+    return (most + 8 * theme.scale) * static_cast<float>(labels.size());
+}
+
+std::vector<Rect> segments(const Theme& theme, const Rect& at,
+                           std::span<const char* const> labels) {
+    const auto count = static_cast<float>(labels.size());
+    std::vector<float> widths(labels.size(), at.size().x / count);
+    if (segmentsWidth(theme, labels) > at.size().x) {
+        float sum = 0;
+        for (std::size_t i = 0; i < labels.size(); ++i)
+            sum += widths[i] = widthOf(*theme.small, labels[i]);
+        const float rest = (at.size().x - sum) / count;
+        for (float& width : widths) width = rest > 0 ? width + rest : width * at.size().x / sum;
+    }
+    std::vector<Rect> cells;
+    float left = at.min.x;
+    for (const float width : widths) {
+        cells.push_back({{std::round(left), at.min.y}, {std::round(left + width), at.max.y}});
+        left += width;
+    }
+    return cells;
+}
+
 std::optional<std::size_t> segmented(const Theme& theme, const char* id, const Rect& at,
                                      std::span<const char* const> labels, std::size_t chosen) {
     std::optional<std::size_t> picked;
-    const float s = theme.scale, width = at.size().x / static_cast<float>(labels.size());
+    const float s = theme.scale;
+    const std::vector<Rect> cells = segments(theme, at, labels);
     list().AddRectFilled(im(at.min), im(at.max), kField, 5 * s);
     ImGui::PushID(id);
     const ImGuiID own = ImGui::GetID("##focus");
@@ -125,14 +213,13 @@ std::optional<std::size_t> segmented(const Theme& theme, const char* id, const R
         if (next != chosen) picked = next;
     }
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        const float left = at.min.x + width * static_cast<float>(i);
-        const Rect cell{{std::round(left), at.min.y}, {std::round(left + width), at.max.y}};
+        const Rect& cell = cells[i];
         const Pressing p = area(labels[i], cell);
         if (p.pressed) focus().touch(own);
         if (i == chosen)
             list().AddRectFilled(im(cell.min + glm::vec2(2 * s)), im(cell.max - glm::vec2(2 * s)),
                                  kRaised, 4 * s);
-        text(theme, cell.centre(), labels[i],
+        text(theme, cell.centre(), fitting(*theme.small, labels[i], cell.size().x - 4 * s),
              i == chosen ? kAccent
              : p.hovered ? kText
                          : kDim,
@@ -285,6 +372,7 @@ bool beginPopup(const char* id) {
     // The regions' own windows have no padding.
     const float unit = ImGui::GetFontSize();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.75f * unit, 0.65f * unit});
+    keepInside(id);
     const bool open = ImGui::BeginPopup(id);
     ImGui::PopStyleVar();
     if (!open) return false;

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/panels/focus.h"
 #include "app/panels/icons.h"
@@ -31,6 +32,9 @@ void text(ImDrawList& list, glm::vec2 at, std::string_view what, ImU32 color, fl
 std::string shortened(std::string_view what, const std::function<bool(std::string_view)>& fits);
 std::string fitting(ImFont& font, std::string_view what, float width);
 float widthOf(ImFont& font, std::string_view what);
+// The text in lines of a width, broken at spaces and after '/', and within a word only where it
+// alone is too long.
+std::string inLines(ImFont& font, std::string_view what, float width);
 
 // What happened to a rectangle that is pressed and dragged.
 struct Pressing {
@@ -50,6 +54,10 @@ bool textButton(const Theme& theme, const char* id, const Rect& at, std::string_
 // One of a few, side by side; arrows choose. Returns the one chosen now.
 std::optional<std::size_t> segmented(const Theme& theme, const char* id, const Rect& at,
                                      std::span<const char* const> labels, std::size_t chosen);
+// Where its labels lie: in equal parts, or by their lengths where these have no room, and cut where
+// that does not help; and how wide it is for equal ones.
+std::vector<Rect> segments(const Theme& theme, const Rect& at, std::span<const char* const> labels);
+float segmentsWidth(const Theme& theme, std::span<const char* const> labels);
 // A thin slider of [0, 1]; true when it comes to another value, by `step` with a key.
 bool slider(const Theme& theme, const char* id, const Rect& at, double& fraction,
             double step = 0.02);

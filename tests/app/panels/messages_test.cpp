@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/panels/focus.h"
+#include "app/panels/widgets.h"
 #include "tests/support/panels_desk.h"
 
 namespace app::panels {
@@ -57,6 +58,19 @@ TEST_F(Messages, ThatAreNoErrorsGoByThemselves) {
     ASSERT_TRUE(wait);
     desk_.frames(static_cast<int>(*wait / 10ms) + 1);
     EXPECT_EQ(texts(), std::vector<std::string>{"an error"});
+}
+
+TEST_F(Messages, BreakAtSpacesAndAfterSlashesAndWithinWordsThatAloneAreTooLong) {
+    ImFont& font = *desk_.theme().text;
+    const auto lines = [&](std::string_view text, std::string_view longest) {
+        return inLines(font, text, widthOf(font, longest));
+    };
+    EXPECT_EQ(lines("Wrote io_13.png", "Wrote io_13."), "Wrote\nio_13.png");
+    EXPECT_EQ(lines("/home/data/io_13.png", "/home/data/io_"), "/home/data/\nio_13.png");
+    EXPECT_EQ(lines("aaaaaa", "aaaa"), "aaaa\naa");
+    EXPECT_EQ(lines("éééé", "é"), "é\né\né\né");
+    EXPECT_EQ(lines("one\ntwo", "one two"), "one\ntwo");
+    EXPECT_EQ(lines("", "a"), "");
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/support/scripted_exploration.h"
 
 namespace app::panels {
@@ -34,6 +36,16 @@ TEST(ProbePage, SaysOfPointsThatWereReadAtOtherTimesThatTheyWere) {
     EXPECT_THAT(said(now + 1, now + 1), AllOf(ofPicture, Not(HasSubstr("another time"))));
     EXPECT_THAT(said(now + 1, now), AllOf(ofFirst(now + 1), Not(HasSubstr("picture"))));
     EXPECT_THAT(said(now, now + 1), AllOf(ofPicture, ofFirst(now)));
+}
+
+TEST(ProbePage, MeasuresPlacesOfTheEarthByTheGreatCircle) {
+    constexpr double kAround = 2 * std::numbers::pi * 6371.0088;
+    EXPECT_NEAR(kilometresApart({0, 0, 5}, {90, 0, 700}), kAround / 4, 1e-8);
+    EXPECT_NEAR(kilometresApart({10, -30, 0}, {10, 60, 0}), kAround / 4, 1e-8);
+    EXPECT_NEAR(kilometresApart({-170, 80, 0}, {10, 80, 0}), kAround / 18, 1e-8);
+    EXPECT_NEAR(kilometresApart({359.5, 0, 0}, {0.5, 0, 0}), kAround / 360, 1e-8);
+    EXPECT_NEAR(kilometresApart({20, 40, 0}, {200, -40, 0}), kAround / 2, 1e-3);
+    EXPECT_EQ(kilometresApart({20, 40, 0}, {20, 40, 9}), 0);
 }
 
 }  // namespace
