@@ -92,7 +92,7 @@ class Viewing {
     const ViewOptions& options_;
     Exploration exploration_{{.wake = [] { desktop::Window::wake(); }}};
     std::optional<ExportJob> exporting_;  // goes on from one front end to the next
-    bool seen_ = false;  // a front end was there
+    bool seen_ = false;                   // a front end was there
 };
 
 // What is not there is told where it was asked for, not in a window that shows nothing.

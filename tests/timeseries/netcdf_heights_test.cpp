@@ -272,7 +272,7 @@ TEST(NetcdfHeights, OfWrfAreItsGeopotentialWhereEachVariableStands) {
     field("U", {t, z, y, xs}, "XLONG_U XLAT_U");
     mass();
     wind();
-    constexpr double kGravity = 9.80665;
+    constexpr double kGravity = 9.81;
     const auto between = [](double s, double k, double j, double i) {
         return 1000 * s + 300 * k + 10 * j + i;
     };

@@ -212,7 +212,7 @@ std::optional<HeightFormula> wrfFormulaOf(const NcHeader& header, const NcVariab
 
 std::vector<double> wrfHeights(const CfFile& file, const HeightFormula& formula,
                                const std::array<std::size_t, 3>& size, std::size_t step) {
-    constexpr double kGravity = 9.80665;
+    constexpr double kGravity = 9.81;  // WRF's own (share/module_model_constants.F)
     std::vector<double> heights(size[0] * size[1] * size[2]);
     for (const char* name : {"PH", "PHB"}) {
         const NcVariable* const part = file.header().find(formula.terms.at(name), "");
