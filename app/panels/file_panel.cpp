@@ -51,6 +51,20 @@ void end() {
     endRegion();
 }
 
+// Why nothing can be written there, a line; "" where something can. What is no file, as a pipe, is
+// not tried.
+std::string whyNot(const fs::path& file) {
+    std::error_code unknown;
+    if (fs::exists(file, unknown) && !fs::is_regular_file(file, unknown)) return "";
+    try {
+        const render::PartialFile tried(file);
+        return "";
+    } catch (const std::exception& error) {
+        const std::string why = error.what(), prefix = file.string() + ": ";
+        return "It " + (why.starts_with(prefix) ? why.substr(prefix.size()) : why);
+    }
+}
+
 }  // namespace
 
 void FilePanel::ask(For what, const fs::path& path) {
@@ -78,7 +92,7 @@ void FilePanel::list(const fs::path& folder) {
 
 void FilePanel::take(PanelContext& context, const fs::path& path) {
     const bool again = asked_ && answeredTo_ == path.string();
-    answer_ = flaw(path);
+    answer_ = flaw(context, path);
     asked_ = answer_.empty() && *for_ != For::Open;
     if (asked_ && !again) answer_ = warning(context, path);
     answeredTo_ = path.string();
@@ -96,13 +110,14 @@ void FilePanel::take(PanelContext& context, const fs::path& path) {
     close();
 }
 
-std::string FilePanel::flaw(const fs::path& path) const {
+std::string FilePanel::flaw(const PanelContext& context, const fs::path& path) const {
     std::error_code gone;
     if (*for_ == For::Open) return isThere(path) ? "" : "There is no such file";
     if (!fs::is_directory(path.parent_path(), gone))
         return fmt::format("There is no folder {}", path.parent_path().string());
-    const bool isPicture = render::isPng(path) || render::isExr(path);
-    return *for_ == For::Save || isPicture ? "" : "Its name ends in .png or in .exr";
+    if (*for_ == For::Save) return whyNot(path);
+    if (!render::isPng(path) && !render::isExr(path)) return "Its name ends in .png or in .exr";
+    return context.exploration.shown() ? whyNot(pictures(context, path).front().file) : "";
 }
 
 FrameFiles FilePanel::pictures(const PanelContext& context, const fs::path& path) {
@@ -112,10 +127,13 @@ FrameFiles FilePanel::pictures(const PanelContext& context, const fs::path& path
 }
 
 std::string FilePanel::warning(const PanelContext& context, const fs::path& path) const {
+    constexpr std::size_t kMany = 10'000;
     std::size_t files = 1, existing = 0;
     if (*for_ == For::Export && context.exploration.shown()) {
         const FrameFiles frames = pictures(context, path);
         files = frames.fileCount();
+        if (files > kMany)
+            return fmt::format("{} pictures: again to make them all", withCommas(frames.size()));
         existing = frames.existing();
     } else {
         std::error_code gone;
@@ -198,13 +216,20 @@ void FilePanel::draw(PanelContext& context) {
 
 void FilePanel::drawAnswer(const PanelContext& context, const Rect& at) const {
     const bool answered = !answer_.empty() && answeredTo_ == chosen().string();
-    const bool exports = *for_ == For::Export && context.exploration.shown();
-    const std::string line = answered  ? answer_
-                             : exports ? pictures(context, chosen()).leftOut()
-                                       : "";
-    if (line.empty()) return;
-    text(context.theme, {at.min.x, at.centre().y}, fitting(*context.theme.text, line, at.size().x),
-         kError);
+    const auto tell = [&](const std::string& line, ImU32 color) {
+        text(context.theme, {at.min.x, at.centre().y},
+             fitting(*context.theme.text, line, at.size().x), color);
+    };
+    if (answered) return tell(answer_, kError);
+    if (*for_ != For::Export || !context.exploration.shown()) return;
+    const FrameFiles frames = pictures(context, chosen().filename());
+    if (const std::string leftOut = frames.leftOut(); !leftOut.empty())
+        return tell(leftOut, kError);
+    const glm::ivec2 size = context.exploration.explorer().size;
+    tell(fmt::format("{}{} x {}: {}",
+                     frames.size() > 1 ? withCommas(frames.size()) + " of " : std::string(), size.x,
+                     size.y, frames.names()),
+         kDim);
 }
 
 void FilePanel::drawList(PanelContext& context, const Rect& at) {

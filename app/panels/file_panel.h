@@ -33,13 +33,15 @@ class FilePanel {
     void drawList(PanelContext& context, const Rect& at);
     void take(PanelContext& context, const std::filesystem::path& path);
     // What speaks against the path, a line: nothing is there to be opened, or nothing can be
-    // written there. "" when nothing does.
-    std::string flaw(const std::filesystem::path& path) const;
+    // written there, which is tried. "" when nothing does.
+    std::string flaw(const PanelContext& context, const std::filesystem::path& path) const;
     // The animation's pictures. REQUIRES: something is shown.
     static FrameFiles pictures(const PanelContext& context, const std::filesystem::path& path);
-    // What is to be known before it is taken: the last answer, else which steps are left out.
+    // What is to be known before it is taken: the last answer, which steps are left out, or how
+    // many pictures of which size and names there will be.
     void drawAnswer(const PanelContext& context, const Rect& at) const;
-    // What would be replaced, asked as one line; "" when nothing would.
+    // What would be replaced, or that very many pictures would be made, asked as one line; "" when
+    // neither.
     std::string warning(const PanelContext& context, const std::filesystem::path& path) const;
 
     std::function<void()> wake_;

@@ -21,7 +21,8 @@ constexpr std::array kBindings = {
     Binding{Command::Open, key('O'), true},    Binding{Command::Save, key('S'), true},
     Binding{Command::Export, key('E'), true},  Binding{Command::CopyCommandLine, key('C'), true},
     Binding{Command::Headset, key('H'), true}, Binding{Command::Screenshot, Key::F12},
-    Binding{Command::Help, key('H')},          Binding{Command::Close, Key::Escape},
+    Binding{Command::Help, key('H')},          Binding{Command::Help, Key::F1},
+    Binding{Command::Close, Key::Escape},
 };
 
 constexpr std::array kHelp = {

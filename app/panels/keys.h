@@ -51,6 +51,7 @@ enum class Key : int {
     Up = 265,
     Home = 268,
     End = 269,
+    F1 = 290,
     F12 = 301,
     KeypadEnter = 335
 };

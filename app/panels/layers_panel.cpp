@@ -26,8 +26,9 @@ void amountText(PanelContext& context, const Rect& at, std::size_t row) {
     const PointCounts* counts = context.exploration.counts();
     if (counts == nullptr || row >= counts->layers.size()) return;
     const std::uint64_t count = counts->layers[row];
-    const std::string amount =
-        withCommas(count) + (counts->inClipBox ? " in the clip box" : " points");
+    const std::string amount = withCommas(count) + (counts->inClipBox ? " in the clip box"
+                                                    : count == 1      ? " point"
+                                                                      : " points");
     const std::string share = "  ·  " + percentText(count, counts->total);
     ImFont& font = *context.theme.small;
     const bool fits = widthOf(font, amount + share) <= at.size().x;

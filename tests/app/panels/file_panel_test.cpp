@@ -61,6 +61,27 @@ TEST_F(ExportFiles, AreNotWrittenWhereNoFolderIs) {
     EXPECT_EQ(enter(), folder_ / "later/world.png");
 }
 
+// Whoever may write anywhere cannot there, either.
+TEST_F(ExportFiles, AreAskedForAnewWhereNothingCanBeWritten) {
+    desk_->type("/proc/world.png");
+    EXPECT_EQ(enter(), std::nullopt);
+    EXPECT_EQ(enter(), std::nullopt);
+    desk_->type((folder_ / "world.png").string());
+    EXPECT_EQ(enter(), folder_ / "world.png");
+    EXPECT_TRUE(std::filesystem::is_empty(folder_)) << "what was tried is gone";
+}
+
+TEST_F(ExportFiles, AreAskedAboutWhereTheyAreVeryMany) {
+    Explorer e = desk_->exploration.explorer();
+    setSweep(e, timeseries::SweepSettings{.animation = timeseries::RangeSet::parse("0:1"),
+                                          .timerSteps = 100'000'000});
+    e.play.timeMoves = e.play.sweepMoves = true;
+    desk_->exploration.edit(e);
+    desk_->frames(3);
+    EXPECT_EQ(enter(), std::nullopt);
+    EXPECT_EQ(enter(), folder_ / "world.png") << "asked for again";
+}
+
 TEST_F(ExportFiles, EndAsPicturesDo) {
     desk_->type("world.jpg");
     EXPECT_EQ(enter(), std::nullopt);
