@@ -18,7 +18,7 @@ class DeskExports : public DeskTest {
         desk_.emplace(
             screen(), folder(),
             std::vector<std::string>{demo().string(), "--sweep=300:1600", "--delta=50",
-                                     "--timer-steps=100000", "--step=2:14:6"},
+                                     "--timer-steps=10000", "--step=2:14:6"},
             std::map<std::string, std::optional<std::string>>{{"TMPDIR", temporary().string()}});
         desk_->waitForTitle("pool_fire_T.nc · T");
         desk_->resize({900, 600});
@@ -49,7 +49,7 @@ class DeskExports : public DeskTest {
         EXPECT_GT(files.size(), 2u);  // of those waited for, one may have been half
         std::size_t number = 0;
         for (const auto& file : files) {
-            EXPECT_EQ(file.filename(), fmt::format("movie_{:05}.png", number++));
+            EXPECT_EQ(file.filename(), fmt::format("movie_{:04}.png", number++));
             EXPECT_EQ(readShot(file).size, glm::ivec2(at_.window.picture.size())) << file;
         }
         EXPECT_TRUE(std::filesystem::is_empty(temporary()));
