@@ -230,17 +230,20 @@ Real widestRamp(const Splat& s, bool crossesLeast, bool crossesMost, Real flat) 
 // `depth` is the cell's. Returns how flat it is, from 0, where nothing turns, to 1.
 template <typename Vec>
 double alongCell(const Vec& ray, double depth, Vec& right, Vec& up) {
-    double widest = 0, square = 0, ofRight = 0, ofUp = 0;
-    for (int a = 0; a < Vec::length(); ++a) {
-        const double r = ray[a], x = right[a], y = up[a];
-        widest = std::max({widest, std::abs(x), std::abs(y)});
-        square += r * r;
-        ofRight += r * x;
-        ofUp += r * y;
-    }
+    double widest = 0;
+    for (int a = 0; a < Vec::length(); ++a)
+        widest = std::max({widest, double{std::abs(right[a])}, double{std::abs(up[a])}});
+    if (!(depth * widest > kOrdinaryStep)) return 0;
     const double flat =
-        std::clamp((depth * widest - kOrdinaryStep) / (kFlatStep - kOrdinaryStep), 0.0, 1.0);
-    if (!(flat > 0 && square > 0)) return 0;
+        std::min((depth * widest - kOrdinaryStep) / (kFlatStep - kOrdinaryStep), 1.0);
+    double square = 0, ofRight = 0, ofUp = 0;
+    for (int a = 0; a < Vec::length(); ++a) {
+        const double r = ray[a];
+        square += r * r;
+        ofRight += r * right[a];
+        ofUp += r * up[a];
+    }
+    if (!(square > 0)) return 0;
     using Real = typename Vec::value_type;
     for (int a = 0; a < Vec::length(); ++a) {
         right[a] = static_cast<Real>(right[a] - flat * (ofRight / square) * ray[a]);
