@@ -249,9 +249,7 @@ bool Interface::obey(Exploration& exploration, Command command) {
         case Command::Headset:
             return false;
         case Command::Open:
-            return files_.ask(FilePanel::For::Open,
-                              e.files.empty() ? std::filesystem::path() : e.files.front()),
-                   true;
+            return files_.ask(FilePanel::For::Open, {}), true;
         case Command::Undo:
             if (exploration.canUndo()) exploration.undo();
             return true;
