@@ -9,18 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "app/panels/fitted_text.h"
 #include "app/panels/focus.h"
 #include "app/panels/icons.h"
 #include "app/panels/theme.h"
 
 namespace app::panels {
-
-// A text as ImGui takes one: never null, as an empty view's pointer may be, which ImGui reads.
-struct Characters {
-    explicit Characters(std::string_view what)
-        : begin(what.empty() ? "" : what.data()), end(begin + what.size()) {}
-    const char *begin, *end;
-};
 
 // Text at a point; `align` 0 begins there, 0.5 is centred, 1 ends there. y is the middle of the
 // line.
@@ -28,13 +22,6 @@ void text(const Theme& theme, glm::vec2 at, std::string_view what, ImU32 color =
           float align = 0, ImFont* font = nullptr);
 void text(ImDrawList& list, glm::vec2 at, std::string_view what, ImU32 color, float align,
           ImFont& font);
-// The text, cut in its middle with an ellipsis to what fits; in one line of a width.
-std::string shortened(std::string_view what, const std::function<bool(std::string_view)>& fits);
-std::string fitting(ImFont& font, std::string_view what, float width);
-float widthOf(ImFont& font, std::string_view what);
-// The text in lines of a width, broken at spaces and after '/', and within a word only where it
-// alone is too long.
-std::string inLines(ImFont& font, std::string_view what, float width);
 
 // What happened to a rectangle that is pressed and dragged.
 struct Pressing {

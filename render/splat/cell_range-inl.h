@@ -74,21 +74,21 @@ struct RangeLanes {
                 const V inside = hn::Mul(hn::Mul(on, on), hn::Set(lanes, 1 / 6.0f));
                 is.above =
                     hn::Mul(on, hn::MulAdd(hn::Mul(half, past), hn::Add(width, past), inside));
-                is.aboveNow = is.way;
             }
             return is;
         };
         Passed is = ofRamp(before[0]);
         if constexpr (kEnds == 2) {
             const Passed beyond = ofRamp(before[1]);
+            is.way = hn::Sub(is.way, beyond.way);
+            is.share = hn::Sub(is.share, beyond.share);
             if constexpr (kValues) {
                 const V range = hn::Sub(end[1], end[0]);
                 is.above = hn::Sub(is.above, hn::MulAdd(range, beyond.way, beyond.above));
-                is.aboveNow =
-                    hn::Sub(is.aboveNow, hn::MulAdd(range, beyond.share, beyond.aboveNow));
+                is.aboveNow = hn::NegMulAdd(range, beyond.share, is.way);
             }
-            is.way = hn::Sub(is.way, beyond.way);
-            is.share = hn::Sub(is.share, beyond.share);
+        } else {
+            is.aboveNow = is.way;
         }
         return is;
     }

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <list>
 #include <set>
 #include <string_view>
 #include <utility>
 
+#include "timeseries/readers/kept_readers.h"
 #include "timeseries/readers/series_files.h"
 #include "timeseries/together.h"
 
@@ -17,8 +17,6 @@ namespace timeseries {
 namespace {
 
 using Path = std::filesystem::path;
-
-constexpr std::size_t kMostOpen = 3;  // a series may have more files than handles
 
 // The place in `all` of the variable that one of another file is: of its name, or nameless as it.
 std::optional<std::size_t> placeOf(const Variable& variable, std::span<const Variable> all) {
@@ -50,19 +48,6 @@ struct TimesOf {
     std::size_t file;
 };
 
-// By which a file that was written anew is told from the one that was opened.
-struct WrittenAt {
-    std::uintmax_t bytes = 0;
-    std::filesystem::file_time_type time = {};
-    friend bool operator==(const WrittenAt&, const WrittenAt&) = default;
-};
-WrittenAt writtenAt(const Path& path) {
-    std::error_code fails;  // what is not there is told by who opens it
-    const std::uintmax_t bytes = std::filesystem::file_size(path, fails);
-    if (fails) return {};
-    return {bytes, std::filesystem::last_write_time(path, fails)};
-}
-
 class SequenceReader final : public Reader {
  public:
     SequenceReader(std::span<const Path> paths, OpenOne openOne, const GlanceAt& glanceAt,
@@ -89,7 +74,7 @@ class SequenceReader final : public Reader {
         for (std::size_t v = 0; v < variables_.size(); ++v) joinTimes(v);
         axes_.clear();
         tellUnfit();
-        if (glanceAt) open_.push_front({0, firstAt, std::move(first)});
+        if (glanceAt) open_.keep(0, firstAt, std::move(first));
     }
 
     std::string format() const override { return format_; }
@@ -122,12 +107,6 @@ class SequenceReader final : public Reader {
 
  private:
     using Axes = std::vector<std::shared_ptr<const TimeAxis>>;  // [file]
-
-    struct Open {
-        std::size_t file;
-        WrittenAt at;
-        std::unique_ptr<Reader> reader;
-    };
 
     void add(std::size_t file, const Reader& reader);
     std::vector<std::optional<Glance>> glancesAt(const GlanceAt& glanceAt) const;
@@ -166,7 +145,7 @@ class SequenceReader final : public Reader {
     std::vector<bool> hasOwnTimes_;                 // [variable]: the files' own
     std::vector<bool> isGlanced_;                   // [file]: it was not opened with the series
     std::vector<std::string> unfit_;  // while opening, why: of each that is glanced at
-    std::list<Open> open_;            // the last used first
+    KeptReaders open_;
 };
 
 const Variable& SequenceReader::expectSame(const Variable& expected, std::size_t file,
@@ -362,19 +341,12 @@ void SequenceReader::expectThen(std::size_t v, std::size_t file, const TimeAxis&
 
 Reader& SequenceReader::open(std::size_t file) {
     const WrittenAt at = writtenAt(paths_[file]);
-    const auto found = std::ranges::find(open_, file, &Open::file);
-    if (found != open_.end() && found->at == at) {
-        open_.splice(open_.begin(), open_, found);
-        return *open_.front().reader;
-    }
-    if (found != open_.end()) open_.erase(found);
-    if (open_.size() == kMostOpen) open_.pop_back();
+    if (Reader* const kept = open_.find(file, at)) return *kept;
     auto reader = openOne_(paths_[file]);
     // It may have been written anew since the series was opened.
     for (std::size_t v = 0; v < variables_.size(); ++v)
         expectThen(v, file, *expectSame(variables_[v], file, *reader).time);
-    open_.push_front({file, at, std::move(reader)});
-    return *open_.front().reader;
+    return open_.keep(file, at, std::move(reader));
 }
 
 SequenceReader::Member SequenceReader::memberOf(std::size_t variable, std::size_t step) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "timeseries/readers/cf/cf_meshes.h"
+#include "timeseries/readers/netcdf/netcdf_block.h"
 #include "timeseries/readers/netcdf/netcdf_contents.h"
 
 namespace timeseries {
@@ -273,38 +274,6 @@ void CfReader::addVariable(std::size_t v) {
     variables_.push_back(std::move(variable));
 }
 
-// Which block of the file is a step, and where each axis runs in it.
-struct Block {
-    std::vector<std::size_t> start, count;
-    StridedLayout layout{{1, 1, 1}, {0, 0, 0}};
-};
-
-Block blockOf(const FileVariable& variable, std::size_t step, const Slab* slab) {
-    Block block;
-    const std::size_t rank = variable.lengths.size();
-    block.start.assign(rank, 0);
-    block.count.assign(variable.lengths.begin(), variable.lengths.end());
-    if (variable.roles.t) {
-        block.start[*variable.roles.t] = step;
-        block.count[*variable.roles.t] = 1;
-    }
-    const std::array positions{variable.roles.x, variable.roles.y, variable.roles.z};
-    if (slab && positions[slab->axis]) {
-        block.start[*positions[slab->axis]] = slab->first;
-        block.count[*positions[slab->axis]] = slab->count;
-    }
-    std::size_t stride = 1;
-    for (std::size_t i = rank; i-- > 0;) {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (positions[axis] == i) {
-                block.layout.size[axis] = block.count[i];
-                block.layout.stride[axis] = stride;
-            }
-        stride *= block.count[i];
-    }
-    return block;
-}
-
 std::optional<StepSpan> CfReader::stepsOf(std::size_t variable, std::size_t file) const {
     std::size_t first = 0;
     for (const Segment& segment : segments_[variable]) {
@@ -343,7 +312,7 @@ Field CfReader::valuesOf(std::size_t variable, std::size_t index, std::size_t st
 
     Field field;
     field.categories = source.categories;
-    const Block block = blockOf(source, step, slab);
+    const NetcdfBlock block = blockOf(source, step, slab);
     unpack(
         source.packing, block.layout,
         [&](void* values) { file.read(*found, block.start, block.count, values); }, field);
