@@ -191,6 +191,22 @@ bool seeRange(Splat<Real>& s, const Valued& cell, double least, double greatest,
     return true;
 }
 
+// The field reference + extent f by which a piece's values have colours: what stands for a range
+// that seeRange() widened has its own.
+struct ColoredField {
+    double reference, extent;
+};
+inline ColoredField coloredField(const ColoredField& field, bool isThin, double lo, double hi) {
+    if (!isThin) return field;
+    const double middle = 0.5 * lo + 0.5 * hi;
+    const double share = std::min((0.5 * hi - 0.5 * lo) / field.extent / (kThinnest / 2), 1.0);
+    return {middle + share * (field.reference - middle), share * field.extent};
+}
+template <typename Splat, typename Valued>
+ColoredField coloredField(const Splat& s, const Valued& piece) {
+    return coloredField({s.reference, s.extent}, s.perRange > 0, piece.lo, piece.hi);
+}
+
 // What no view changes: the field in the cell, and the range. False where the cell takes nothing of
 // it.
 template <typename Real>

@@ -87,8 +87,9 @@ void main() {
 #elif defined(WEIGHTED_COLOR)
     sum = vec4(colorBetween(front, back) * w, w);
 #else
-    const float depthOfLight = layers.style[kind.y].w * w, alpha = opacity(depthOfLight);
-    const float seen = seenTo(front, back, depthOfLight, abs(last - first), width);
+    const float perWeight = layers.style[kind.y].w, depthOfLight = perWeight * w, alpha = opacity(depthOfLight);
+    const float met = abs(last - first);
+    const float seen = seenTo(front, back, depthOfLight, perWeight * max(whole, met * range.z), met);
     const float rayLength = view.depths.z * longer;
     sum = vec4(lit(colorBetween(front, seen), gradient * perSize.xyz, change, rayLength,
                    lampOfRay(offset, rayLength)) * alpha, alpha);

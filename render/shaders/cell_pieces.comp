@@ -163,8 +163,14 @@ Piece pieceOf(Eight values, double least, double greatest, dvec2 range, bool thi
     const double reference = 0.5LF * least + 0.5LF * greatest, extent = 0.5LF * greatest - 0.5LF * least;
     p.mapPlace = p.mapPerValue = 0.0;
     if (map.y > 0.0LF) {
-        p.mapPlace = floatPlace((0.5LF * reference - 0.5LF * map.x) / map.y);
-        p.mapPerValue = floatPlace(0.5LF * extent / map.y);
+        dvec2 colored = dvec2(reference, extent);  // as cell::coloredField() has it
+        if (thin) {
+            const double middle = 0.5LF * range.x + 0.5LF * range.y;
+            const double share = min((0.5LF * range.y - 0.5LF * range.x) / extent / (kThinnest / 2.0LF), 1.0LF);
+            colored = dvec2(middle + share * (reference - middle), share * extent);
+        }
+        p.mapPlace = floatPlace((0.5LF * colored.x - 0.5LF * map.x) / map.y);
+        p.mapPerValue = floatPlace(0.5LF * colored.y / map.y);
     } else if (map.y == 0.0LF) {
         p.mapPlace = 0.5;
     }

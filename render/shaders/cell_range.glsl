@@ -104,10 +104,11 @@ vec3 colorBetween(float a, float b) {
 
 #ifdef OVER
 // As in render/splat/cell_range-inl.h.
-float seenTo(float front, float back, float x, float along, float width) {
-    const float hiding = along / max(along + width, 1e-30);
+float seenTo(float front, float back, float x, float whole, float along) {
+    const float values = max(abs(back - front), 1e-30), met = max(along, 1e-30);
+    x = max(x, whole * min(values / met, 1.0));
     const float share = (1.0 + x / 12.0) / (2.0 + x / 2.0 + x * x / 12.0);
-    return front + (1.0 + hiding * (2.0 * share - 1.0)) * (back - front);
+    return front + (1.0 + min(met / values, 1.0) * (2.0 * share - 1.0)) * (back - front);
 }
 
 // What light makes of a colour, of a surface, as far as there is one, that faces the eye so much. Of a

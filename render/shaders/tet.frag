@@ -27,11 +27,12 @@ void main() {
     const float moved = offset.x * field.z + offset.y * field.w;
     const float value = field.x + base * moved, change = field.y + moved;
     const float first = value + from * change, last = value + to * change;
-    float w = whole, front = first, back = last, width = 0.0;
+    const float met = abs(last - first), most = max(whole, met * range.z);
+    float w = whole, front = first, back = last;
     if (crossesLeast() || crossesMost()) {
-        width = clamp((base + 0.5 * (from + to)) * centreAndBase.w, 2.0 * kLeastChange, range.w);
+        const float width = clamp((base + 0.5 * (from + to)) * centreAndBase.w, 2.0 * kLeastChange, range.w);
         const float share = shareIn(first, last, 1.0 / width);
-        w = share * max(whole, abs(last - first) * range.z);
+        w = share * most;
         if (!(w > 0.0)) discard;
         const vec2 ends = withinRange(vec2(min(first, last), max(first, last)) + vec2(-0.5, 0.5) * width);
         const float mean = valueIn(first, last, width, share);
@@ -46,8 +47,8 @@ void main() {
 #elif defined(WEIGHTED_COLOR)
     sum = vec4(colorBetween(front, back) * w, w);
 #else
-    const float depthOfLight = layers.style[kind.y].w * w, alpha = opacity(depthOfLight);
-    vec3 color = colorBetween(front, seenTo(front, back, depthOfLight, abs(last - first), width));
+    const float perWeight = layers.style[kind.y].w, depthOfLight = perWeight * w, alpha = opacity(depthOfLight);
+    vec3 color = colorBetween(front, seenTo(front, back, depthOfLight, perWeight * most, met));
     const float rayLength = view.depths.z * longer;
     if (view.squares.w > 0.0)
         color = lit(color, min(1.0, abs(change) * light.x / rayLength), light.y, light.z, change,

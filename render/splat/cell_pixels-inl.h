@@ -136,19 +136,22 @@ HWY_INLINE void takeRange(Lanes lanes, const CellView& view, const TileRoom& roo
     V t = hn::Mul(hn::Set(lanes, view.weight * scale), length);
     const float* const factors = room.factor.data() + block.at;
     if constexpr (kCrossed || kByValue) {
-        V values[kPieces + 1], width = zero;
+        V values[kPieces + 1], whole = t;
         for (std::size_t k = 0; k <= kPieces; ++k) values[k] = hn::Load(lanes, block.values[k]);
         V mean = kCrossed ? zero : hn::Load(lanes, block.value),
           low = hn::Min(values[0], values[kPieces]), high = hn::Max(values[0], values[kPieces]);
         if constexpr (kCrossed) {
             const RangeLanes<Lanes, kEnds> range(lanes, c);
             V crossing;
-            width = hn::Load(lanes, block.width);
+            const V width = hn::Load(lanes, block.width);
             const V perWidth = hn::Load(lanes, block.perWidth);
             // As if along the view axis: the ray's own length is a factor later.
-            if (c.perRange > 0)
+            if (c.perRange > 0) {
                 crossing = hn::Mul(hn::Set(lanes, scale * c.perRange),
                                    reciprocal(lanes, pixels.load(lanes, factors)));
+                whole =
+                    hn::Max(whole, hn::Mul(crossing, hn::Abs(hn::Sub(values[kPieces], values[0]))));
+            }
             t = range.template sum<kByValue>(values, width, perWidth, t,
                                              c.perRange > 0 ? &crossing : nullptr, mean, low, high);
         }
@@ -158,9 +161,11 @@ HWY_INLINE void takeRange(Lanes lanes, const CellView& view, const TileRoom& roo
             const V toBack = hn::CopySign(hn::Max(half, zero), along);
             const V front = hn::Sub(mean, toBack);
             V back = hn::Add(mean, toBack);
-            if constexpr (kChannels == Channels::Over)
-                back = seenTo(lanes, front, back, hn::Mul(t, pixels.load(lanes, factors)), along,
-                              width);
+            if constexpr (kChannels == Channels::Over) {
+                const V factor = pixels.load(lanes, factors);
+                back =
+                    seenTo(lanes, front, back, hn::Mul(t, factor), hn::Mul(whole, factor), along);
+            }
             hn::Store(front, lanes, block.front);
             hn::Store(back, lanes, block.back);
         }

@@ -266,16 +266,20 @@ HWY_INLINE V shareFromFront(Lanes lanes, V x) {
     return hn::Mul(hn::MulAdd(x, twelfth, hn::Set(lanes, 1.0f)), reciprocal(lanes, below));
 }
 
-// Of values from the front to the back of a way of optical depth x, how far back they are seen:
-// twice as far as the light comes from in the mean. What a pixel sees beside its ray, where values
-// change by `width` as they do by `along` on it, hides nothing of itself.
+// Of the values that a pixel sees of a layer, from its front to its back, how far back they are
+// seen: twice as far as the light comes from in the mean. The whole way through a cell, on which
+// values change by `along`, has this optical depth, and so much of it as leads through those values
+// hides what is behind: also where the layer goes on in the next cell, and less lies in this one,
+// x. Of more values than its ray meets, a pixel sees the others beside it, where they hide nothing.
 template <class Lanes, class V = hn::Vec<Lanes>>
-HWY_INLINE V seenTo(Lanes lanes, V front, V back, V x, V along, V width) {
-    const V one = hn::Set(lanes, 1.0f), tiny = hn::Set(lanes, 1e-30f), size = hn::Abs(along);
-    const V hiding = hn::Mul(size, reciprocal(lanes, hn::Max(hn::Add(size, width), tiny)));
-    const V share = shareFromFront(lanes, x);
-    const V seen = hn::MulAdd(hiding, hn::Sub(hn::Add(share, share), one), one);
-    return hn::MulAdd(seen, hn::Sub(back, front), front);
+HWY_INLINE V seenTo(Lanes lanes, V front, V back, V x, V whole, V along) {
+    const V one = hn::Set(lanes, 1.0f), tiny = hn::Set(lanes, 1e-30f);
+    const V seen = hn::Sub(back, front);
+    const V values = hn::Max(hn::Abs(seen), tiny), met = hn::Max(hn::Abs(along), tiny);
+    const V hiding = hn::Min(hn::Mul(met, reciprocal(lanes, values)), one);
+    const V through = hn::Mul(whole, hn::Min(hn::Mul(values, reciprocal(lanes, met)), one));
+    const V share = shareFromFront(lanes, hn::Max(x, through));
+    return hn::MulAdd(hn::MulAdd(hiding, hn::Sub(hn::Add(share, share), one), one), seen, front);
 }
 
 // Of a surface, as far as there is one, whose normal has so much of the ways to the lamp and

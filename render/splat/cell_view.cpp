@@ -35,10 +35,10 @@ float steepnessIn(double extent, double steep) {
     return static_cast<float>(extent > 0 ? std::min(steep / extent, kSteepest) : kSteepest);
 }
 
-CellMapPlace mapPlaceOf(const ByValue& style, double reference, double extent) {
+CellMapPlace mapPlaceOf(const ByValue& style, const cell::ColoredField& field) {
     const double half = style.halfWidth();
     if (!(half > 0)) return {0.5, 0};
-    return {placeOnScale(reference, style.lo, half), 0.5 * extent / half};
+    return {placeOnScale(field.reference, style.lo, half), 0.5 * field.extent / half};
 }
 
 float floatPlace(double at) { return static_cast<float>(std::clamp(at, -1e30, 1e30)); }
@@ -103,7 +103,7 @@ TileSpan spanOf(const CellView& view, const SeenPiece& c) {
 }
 
 void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const RangeStyle& style,
-               double reference, double extent) {
+               const cell::ColoredField& field) {
     if (view.tintsOf.empty()) return;
     const TileLayout::Tints& tints = view.tintsOf[layer];
     c.firstTint = tints.first;
@@ -111,7 +111,7 @@ void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const Rang
     c.tint = tints.first;
     const auto* of = std::get_if<ByValue>(&style.color);
     if (of == nullptr) return;
-    const CellMapPlace place = mapPlaceOf(*of, reference, extent);
+    const CellMapPlace place = mapPlaceOf(*of, field);
     const auto whole = static_cast<double>(tints.span);
     c.tint = floatPlace(static_cast<double>(tints.first) + whole * place.at);
     c.tintPerValue = floatPlace(whole * place.perValue);
@@ -123,7 +123,7 @@ std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::
     const TetSplat<float> s = tetSplatAt<float>(view.seen, tet);
     if (!takePixels(c, view, s)) return std::nullopt;
     takeRange(c, s);
-    takeTints(c, view, layer, style, s.reference, s.extent);
+    takeTints(c, view, layer, style, cell::coloredField(s, tet));
     c.at = s.at;
     c.ray = s.ray;
     c.right = s.x;

@@ -55,7 +55,7 @@ float steepnessIn(double extent, double steep);
 struct CellMapPlace {
     double at, perValue;
 };
-CellMapPlace mapPlaceOf(const ByValue& style, double reference, double extent);
+CellMapPlace mapPlaceOf(const ByValue& style, const cell::ColoredField& field);
 // Such places as floats, and what is more than floats hold.
 float floatPlace(double at);
 
@@ -81,9 +81,9 @@ struct SeenPiece {
 };
 // The tiles that its pixels are in.
 TileSpan spanOf(const CellView& view, const SeenPiece& c);
-// Of one of that layer, whose field is reference + extent f.
+// Of one of that layer, with this field.
 void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const RangeStyle& style,
-               double reference, double extent);
+               const cell::ColoredField& field);
 
 // A CellSplat in a picture: two lines of the caches.
 struct alignas(128) SeenCell : SeenPiece {

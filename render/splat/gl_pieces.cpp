@@ -89,10 +89,10 @@ std::shared_ptr<const gl::Buffer> GlPieces::farthestFirst(const Scene& scene, co
     return ordered_.back().places;
 }
 
-GlMapPlace glMapPlaceOf(const RangeStyle& style, double reference, double extent) {
+GlMapPlace glMapPlaceOf(const RangeStyle& style, const cell::ColoredField& field) {
     const auto* map = std::get_if<ByValue>(&style.color);
     if (map == nullptr) return {};
-    const CellMapPlace place = mapPlaceOf(*map, reference, extent);
+    const CellMapPlace place = mapPlaceOf(*map, field);
     return {floatPlace(place.at), floatPlace(place.perValue)};
 }
 

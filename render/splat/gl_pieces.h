@@ -76,6 +76,6 @@ class GlPieces {
 struct GlMapPlace {
     float at = 0, perValue = 0;
 };
-GlMapPlace glMapPlaceOf(const RangeStyle& style, double reference, double extent);
+GlMapPlace glMapPlaceOf(const RangeStyle& style, const cell::ColoredField& field);
 
 }  // namespace render

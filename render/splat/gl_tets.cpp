@@ -32,7 +32,7 @@ bool takeTet(GlTet& t, const ValuedTet& tet, const CellOfLayer& of, const Scene&
     t.most = s.most;
     t.perRange = s.perRange;
     t.steep = steepnessIn(s.extent, steep);
-    t.map = glMapPlaceOf(scene.layers[of.layer].style, s.reference, s.extent);
+    t.map = glMapPlaceOf(scene.layers[of.layer].style, cell::coloredField(s, tet));
     t.kind = static_cast<std::uint32_t>(s.crossesLeast) << 4 |
              static_cast<std::uint32_t>(s.crossesMost) << 5 | std::uint32_t{of.layer} << 8;
     t.cell = of.cell;

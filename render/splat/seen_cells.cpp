@@ -338,8 +338,10 @@ void seeCells(const CellView& view, const Scene& scene, const PieceBatch& pieces
         spans.push_back({static_cast<std::uint32_t>(rows.tileY[i] * view.tiles.x + rows.tileX[i]),
                          static_cast<std::uint16_t>(rows.lastTileX[i] - rows.tileX[i] + 1),
                          static_cast<std::uint16_t>(rows.lastTileY[i] - rows.tileY[i] + 1)});
-        takeTints(cells[seen++], view, pieces.layer[i], scene.layers[pieces.layer[i]].style,
-                  rows.reference[i], rows.extent[i]);
+        SeenCell& c = cells[seen++];
+        takeTints(c, view, pieces.layer[i], scene.layers[pieces.layer[i]].style,
+                  cell::coloredField({rows.reference[i], rows.extent[i]}, c.perRange > 0,
+                                     pieces.lo[i], pieces.hi[i]));
     }
     cells.resize(static_cast<std::size_t>(end - cells.data()));
 }

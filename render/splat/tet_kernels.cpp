@@ -90,7 +90,7 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
             const V value =
                 hn::MulAdd(middle, change, hn::MulAdd(base, shift, set(c.f)));  // half way through
             const V reach = hn::Mul(half, hn::Mul(length, change));
-            V front = hn::Sub(value, reach), back = hn::Add(value, reach), beside = set(0);
+            V front = hn::Sub(value, reach), back = hn::Add(value, reach), whole = t;
             const V factor = pixels.load(lanes, room.factor.data() + at);
             if constexpr (kEnds > 0) {
                 const V first = front, last = back;
@@ -99,8 +99,8 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                                         set(c.widest));
                 // As if along the view axis: the ray's own length is a factor later.
                 if (c.perRange > 0)
-                    t = hn::Max(t, hn::Mul(hn::Mul(perRange, reciprocal(lanes, factor)),
-                                           hn::Abs(hn::Sub(last, first))));
+                    whole = hn::Max(t, hn::Mul(hn::Mul(perRange, reciprocal(lanes, factor)),
+                                               hn::Abs(hn::Sub(last, first))));
                 const RangeLanes<Lanes, kEnds> range(lanes, c);
                 V before[kEnds];
                 range.ramps(width, before);
@@ -108,8 +108,7 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                 const auto share = range.template share<kByValue>(
                     first, last, range.template passed<kByValue>(first, before, width),
                     range.template passed<kByValue>(last, before, width), perWidth);
-                t = hn::Mul(t, hn::Max(share.is, set(0)));
-                beside = width;
+                t = hn::Mul(whole, hn::Max(share.is, set(0)));
                 if constexpr (kByValue) {
                     V low, high;
                     range.ends(first, last, width, low, high);
@@ -121,8 +120,8 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
                 }
             }
             if constexpr (kByValue && kChannels == Channels::Over)
-                back =
-                    seenTo(lanes, front, back, hn::Mul(t, factor), hn::Add(reach, reach), beside);
+                back = seenTo(lanes, front, back, hn::Mul(t, factor), hn::Mul(whole, factor),
+                              hn::Add(reach, reach));
             t = hn::IfThenElseZero(inside, t);
             addWeight<kChannels>(pixels, lanes, t, room, at, [&](V* colors) HWY_ATTR {
                 if constexpr (kColors) color.between(front, back, colors);

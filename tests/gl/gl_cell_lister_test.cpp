@@ -60,7 +60,7 @@ class GlCellListing : public tests::GlCellPlanes {
                          s.least,
                          s.most,
                          s.perRange,
-                         glMapPlaceOf(style, s.reference, s.extent),
+                         glMapPlaceOf(style, cell::coloredField(s, piece)),
                          steepnessIn(s.extent, steepnessOf(scene)),
                          {}};
                 std::ranges::copy(s.f, c.f);

@@ -295,38 +295,49 @@ TEST(CellSplatter, RaysEndAtWhatIsOpaque) {
         }
 }
 
-// However a ray's pieces part a layer of which a pixel sees about the range: in a linear field all
-// pixels see the same of it, but for those where it lies in two cells.
+// However cells and a ray's pieces part a layer, be it thick or thin for a pixel: in a linear field
+// all pixels see the same of it, its colours as each hides those behind.
 TEST(CellSplatter, ALayerOfALinearFieldHasOneColor) {
-    for (const bool placedOneByOne : {false, true}) {
+    constexpr double kOpacity = 0.9;
+    const auto draw = [](bool placedOneByOne, double half) {
         const std::shared_ptr<const timeseries::Grid> grid =
             placedOneByOne
                 ? tests::curvilinear(
                       {9, 9, 9}, [](double i, double j, double k) { return glm::dvec3(i, j, k); })
                 : tests::cube(9);
-        CellWorld world(tests::stepOf(grid,
-                                      [&](std::size_t i) {
-                                          const auto at = grid->indices(i);
-                                          return double(at.z) + 0.37 * double(at.y) +
-                                                 0.21 * double(at.x);
-                                      }),
-                        {"6.2:6.3"}, 0.9);
-        world.scene.layers[0].style.color = ByValue{ColorMap(), 6.2, 6.3};
+        const auto risesTowardsTheEye = [&](std::size_t i) {
+            const auto at = grid->indices(i);
+            return double(at.z) + 0.37 * double(at.y) + 0.21 * double(at.x);
+        };
+        CellWorld world(tests::stepOf(grid, risesTowardsTheEye), {"6.25~" + std::to_string(half)},
+                        kOpacity);
+        RangeStyle& style = world.scene.layers[0].style;
+        style.color = ByValue{ColorMap(), 6.25 - half, 6.25 + half};
         world.scene.opacityPer = OpacityPer::Crossing;
         world.scene.order = Order::BackToFront;
         const View view = tests::lookFrom({0.9, -1.4, 2.2}, {160, 120});
         const std::vector<float> pixels = drawn(world.scene, view, Channels::Over);
-        std::vector<float> greens;
+        std::vector<double> greens;
         for (std::size_t i = 0; i < pixels.size(); i += 4)
-            if (pixels[i + 3] > 0.89f && pixels[i + 3] < 0.91f)
-                greens.push_back(pixels[i + 1] / pixels[i + 3]);
-        ASSERT_GT(greens.size(), 1000u);
-        std::ranges::nth_element(greens, greens.begin() + std::ptrdiff_t(greens.size() / 2));
-        const float middle = greens[greens.size() / 2];
-        const auto others = std::ranges::count_if(
-            greens, [&](float green) { return std::abs(green - middle) > 0.02f; });
-        EXPECT_LT(double(others), 0.2 * double(greens.size())) << placedOneByOne;
-    }
+            if (std::abs(pixels[i + 3] - kOpacity) < 0.01)
+                greens.push_back(double(pixels[i + 1] / pixels[i + 3]));
+        constexpr int kSamples = 1000;
+        const double depth = -std::log1p(-kOpacity);
+        double wanted = 0;
+        for (int k = 0; k < kSamples; ++k) {
+            const double way = (k + 0.5) / kSamples;
+            wanted += colorOf(style, 6.25 + half * (1 - 2 * way)).g * depth / kSamples *
+                      std::exp(-depth * way) / kOpacity;
+        }
+        return std::pair(greens, wanted);
+    };
+    for (const bool placedOneByOne : {false, true})
+        for (const double half : {0.05, 0.001}) {
+            const auto [greens, wanted] = draw(placedOneByOne, half);
+            ASSERT_GT(greens.size(), 1000u);
+            for (const double green : greens)  // of it, shareFromFront() has 0.025
+                ASSERT_NEAR(green, wanted, 0.06) << placedOneByOne << ' ' << half;
+        }
 }
 
 }  // namespace
