@@ -33,12 +33,17 @@ void tell(const char* what, std::vector<double> milliseconds) {
                milliseconds.size(), milliseconds[milliseconds.size() / 2], milliseconds.back());
 }
 
-// From a movement of the mouse to a picture that is another.
-std::vector<double> drags(ui::Driver& desk, const ui::Places& at) {
-    // A strip through the middle is read faster than all of it.
+// Through the middle: to read all of a window would take the processor from the program.
+app::panels::Rect stripOf(const ui::Places& at) {
     app::panels::Rect strip = at.clear;
     strip.min.y = at.clear.centre().y - 20;
     strip.max.y = strip.min.y + 40;
+    return strip;
+}
+
+// From a movement of the mouse to a picture that is another.
+std::vector<double> drags(ui::Driver& desk, const ui::Places& at) {
+    const app::panels::Rect strip = stripOf(at);
     std::vector<double> out;
     desk.move(at.clear.centre());
     desk.down();
@@ -76,8 +81,17 @@ std::vector<float> noise(std::size_t points) {
     return values;
 }
 
-// From where the button is let go to the last change of the picture before the window is quiet for
-// a while, that is, until all points are seen. Their error is told beside it, and later.
+// Columns of a place, none farther from the next than tiles are wide.
+std::vector<ui::Shot> columnsOf(ui::Driver& desk, const app::panels::Rect& place) {
+    constexpr float kApart = 60, kWidth = 4;
+    std::vector<ui::Shot> out;
+    for (float x = place.min.x; x + kWidth <= place.max.x; x += kApart)
+        out.push_back(desk.shot({{x, place.min.y}, {x + kWidth, place.max.y}}));
+    return out;
+}
+
+// From where the button is let go to the last change of the picture before it is still for a while,
+// that is, until all points are seen. Their error is told beside it, and later.
 struct Rests {
     std::vector<double> gaps, times;
 };
@@ -96,19 +110,17 @@ Rests rests(ui::Driver& desk, const ui::Places& at) {
             desk.ping();
         }
         const Clock::time_point begin = Clock::now();
-        Clock::time_point changed = begin, pictured = begin;
+        Clock::time_point changed = begin;
         desk.up();
-        ui::Shot window, picture;
+        std::vector<ui::Shot> last;
         while (Clock::now() - changed < kQuiet) {
             out.gaps.push_back(Milliseconds(desk.ping()).count());
-            const auto look = [&](ui::Shot& last, ui::Shot now, Clock::time_point& when) {
-                if (now != last) when = Clock::now();
-                last = std::move(now);
-            };
-            look(window, desk.shot(), changed);
-            look(picture, desk.shot(left), pictured);
+            std::vector<ui::Shot> now = columnsOf(desk, left);
+            if (now != last) changed = Clock::now();
+            last = std::move(now);
         }
-        out.times.push_back(Milliseconds(pictured - begin).count());
+        out.times.push_back(Milliseconds(changed - begin).count());
+        desk.settled();
     }
     return out;
 }
