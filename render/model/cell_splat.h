@@ -109,12 +109,12 @@ struct CellFragment {
 
 namespace cell {
 
-// Of the field at a place of the cell, from its corners.
-template <typename Real>
-Real valueAt(const std::array<Real, 8>& f, const glm::vec<3, Real>& u) {
-    const auto mix = [](Real a, Real b, Real t) { return a + t * (b - a); };
-    const Real low = mix(mix(f[0], f[1], u.x), mix(f[2], f[3], u.x), u.y);
-    const Real high = mix(mix(f[4], f[5], u.x), mix(f[6], f[7], u.x), u.y);
+// Of what is trilinear, at a place of the cell, from its corners.
+template <typename Value, typename Real>
+Value valueAt(const std::array<Value, 8>& f, const glm::vec<3, Real>& u) {
+    const auto mix = [](const Value& a, const Value& b, Real t) { return a + t * (b - a); };
+    const Value low = mix(mix(f[0], f[1], u.x), mix(f[2], f[3], u.x), u.y);
+    const Value high = mix(mix(f[4], f[5], u.x), mix(f[6], f[7], u.x), u.y);
     return mix(low, high, u.z);
 }
 

@@ -31,12 +31,6 @@ class CellWalk {
         }
         return out;
     }
-    // Its sides, from the first corner to the last.
-    glm::dvec3 sidesOf(const glm::uvec3& cell) const {
-        glm::dvec3 sides(0);
-        for (int a = 0; a < 3; ++a) sides[a] = face(a, cell[a] + 1) - face(a, cell[a]);
-        return sides;
-    }
     // visit(cell, from, to) for every cell that eye + t along passes at t >= near, the nearest
     // first; from < to. Where it returns something, as long as that is true.
     template <typename Visit>

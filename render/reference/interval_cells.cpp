@@ -333,18 +333,4 @@ double IntervalCells::CellField::valueAt(const glm::dvec3& place) const {
     return std::clamp(sum, least_, greatest_);
 }
 
-glm::dvec3 IntervalCells::CellField::changeAt(const glm::dvec3& place) const {
-    glm::dvec3 change(0);
-    for (unsigned c = 0; c < 8; ++c)
-        for (unsigned a = 0; a < 3; ++a) {
-            double share = c >> a & 1 ? 1 : -1;
-            for (const unsigned b : {(a + 1) % 3, (a + 2) % 3}) {
-                const double at = place[static_cast<int>(b)];
-                share *= c >> b & 1 ? at : 1 - at;
-            }
-            change[static_cast<int>(a)] += values_[c] * share;
-        }
-    return change;
-}
-
 }  // namespace render

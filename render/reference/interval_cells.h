@@ -65,8 +65,7 @@ class IntervalCells {
     class CellField {
      public:
         double valueAt(const glm::dvec3& place) const;
-        // How it changes there, a side of the cell along each axis.
-        glm::dvec3 changeAt(const glm::dvec3& place) const;
+        bool isEven() const { return least_ == greatest_; }
 
      private:
         friend class IntervalCells;

@@ -10,6 +10,7 @@
 #include "render/reference/light_on_ray.h"
 #include "render/reference/tets_light.h"
 #include "render/reference/tets_on_pixels.h"
+#include "render/splat/cell_slopes.h"
 #include "render/splat/cell_view.h"
 
 namespace render {
@@ -45,6 +46,7 @@ struct LightWork {
     std::vector<double> widths;                    // the ranges of these,
     std::vector<double> depths;                    // and optical depths
     std::vector<IntervalCells::CellField> fields;  // of these
+    std::array<glm::dvec3, 8> slopes;              // at the corners of a cell
     std::optional<LightOnRay> seen;
 };
 
@@ -154,12 +156,14 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
     const double steepness = steepnessOf(scene_);
     const glm::dmat3& worldFromAxes = scene_.placed.worldFromAxes();
     const glm::dmat3 gradients = glm::transpose(glm::inverse(worldFromAxes));
-    const auto shadeAt = [&](const IntervalCells::CellField& field, const glm::uvec3& cell,
-                             const glm::dvec3& place, const glm::dvec3& along) {
-        if (scene_.light == Light::Off) return Shade();
-        return shadeOf(scene_.light, scene_.lamp,
-                       gradients * (field.changeAt(place) / walk_->sidesOf(cell)),
-                       worldFromAxes * along, steepness);
+    std::optional<PointSlopes> slopes;
+    if (scene_.light != Light::Off) slopes.emplace(scene_);
+    const double scale = steepness > 0 ? steepness : 1;  // of gradients, which may be any
+    const auto shadeAt = [&](const std::array<glm::dvec3, 8>& corners, const glm::dvec3& place,
+                             const glm::dvec3& along) {
+        if (!slopes) return Shade();
+        return shadeOf(scene_.light, scene_.lamp, gradients * cell::valueAt(corners, place),
+                       worldFromAxes * along, steepness / scale);
     };
     // A piece of the way, in which no layer begins or ends, each as deep as it is there.
     const auto passEven = [&](const Through& way, LinePart piece, LightWork& work) {
@@ -177,8 +181,8 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
         work.seen->pass(
             work.in, work.depths,
             [&](std::size_t i, double share) { return work.fields[i].valueAt(placeAt(share)); },
-            [&](std::size_t i, double share) {
-                return shadeAt(work.fields[i], way.cell, placeAt(share), way.along);
+            [&](std::size_t, double share) {
+                return shadeAt(work.slopes, placeAt(share), way.along);
             });
     };
     const auto pass = [&](const Through& way, LinePart piece, LightWork& work) {
@@ -217,6 +221,10 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
                                            walk_->inCell(cell, ray.eye + to * ray.along), ray.along,
                                            (to - from) * ray.weight};
                          collect(way, work);
+                         if (slopes && !layers_.front().fieldIn(cell).isEven())
+                             work.slopes = slopes->atCorners(cell, scale);
+                         else
+                             work.slopes = {};
                          for (std::size_t i = 1; i < work.ends.size(); ++i)
                              if (work.ends[i] > work.ends[i - 1])
                                  pass(way, {work.ends[i - 1], work.ends[i]}, work);

@@ -7,14 +7,30 @@ layout(location = 5) flat in vec4 ray;
 layout(location = 6) flat in vec4 perSize;
 layout(location = 7) flat in vec4 low;
 layout(location = 8) flat in vec4 high;
+layout(location = 9) flat in uint piece;
 
 const int kPieces = 3;
 
 #ifdef OVER
-// What light makes of a colour, where the field has this gradient per length in axis coordinates
-// and changes so along the ray, which is so long and has so much of the way to a lamp in the world.
-vec3 lit(vec3 color, vec3 g, float change, float rayLength, float ofRay) {
+// C++: CellSlopes in render/splat/cell_slopes.h, of each piece and axis eight.
+layout(std430, binding = 2) readonly buffer Slopes { vec4 slopes[]; };
+
+// The gradient by which light falls there, per length in axis coordinates, `at` being a place of the
+// cell.
+vec3 slopesAt(vec3 at) {
+    vec3 g;
+    for (uint a = 0u; a < 3u; ++a) {
+        const vec4 low = slopes[6u * piece + 2u * a], high = slopes[6u * piece + 2u * a + 1u];
+        g[a] = low.x + dot(low.yzw, at) + dot(high.xyz, at.xxy * at.yzz) + high.w * at.x * at.y * at.z;
+    }
+    return g * perSize.xyz;
+}
+// What light makes of a colour at a place of the cell, of a ray that goes on along it so, is so long
+// and has so much of the way to a lamp in the world.
+vec3 lit(vec3 color, vec3 at, vec3 along, float rayLength, float ofRay) {
     if (view.squares.w == 0.0) return color;
+    const vec3 g = slopesAt(at);
+    const float change = dot(g, along / perSize.xyz);
     const float g2 = dot(view.squares.xyz, g * g) +
                      dot(view.products.xyz, vec3(g.x * g.y, g.x * g.z, g.y * g.z));
     const float per = inversesqrt(max(g2, 1e-30));
@@ -91,7 +107,15 @@ void main() {
     const float met = abs(last - first);
     const float seen = seenTo(front, back, depthOfLight, perWeight * max(whole, met * range.z), met);
     const float rayLength = view.depths.z * longer;
-    sum = vec4(lit(colorBetween(front, seen), gradient * perSize.xyz, change, rayLength,
+    // The middle of what lies in the range, as if the field were linear along the ray.
+    float inRange = 0.0;
+    if (crossesLeast() || crossesMost()) {
+        const float per = 1.0 / (change < 0.0 ? min(change, -1e-12) : max(change, 1e-12));
+        const vec2 ends = clamp((vec2(crossesLeast() ? range.x : -2.0, crossesMost() ? range.y : 2.0) - value) * per,
+                                -halfWay, halfWay);
+        inRange = 0.5 * (ends.x + ends.y);
+    }
+    sum = vec4(lit(colorBetween(front, seen), m + inRange * d, d, rayLength,
                    lampOfRay(offset, rayLength)) * alpha, alpha);
 #endif
 }

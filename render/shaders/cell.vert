@@ -11,9 +11,11 @@ layout(location = 5) flat out vec4 ray;      // w: what a pixel's step to the ri
 layout(location = 6) flat out vec4 perSize;  // w: and up
 layout(location = 7) flat out vec4 low;
 layout(location = 8) flat out vec4 high;
+layout(location = 9) flat out uint piece;
 
 void main() {
-    const Piece p = pieces[pieceOfVertex()];
+    piece = pieceOfVertex();
+    const Piece p = pieces[piece];
     const uvec3 n = view.cells.xyz;
     const uint row = p.cell / n.x, slice = row / n.y;
     const vec2 x = texelFetch(axisSides, int(p.cell - row * n.x)).xy;

@@ -13,7 +13,7 @@ layout(location = 3) uniform bool makes;   // else counts
 
 // C++ mirror: CellsBlock in render/splat/gl_cell_lister.cpp.
 layout(std140, binding = 0) uniform Cells {
-    uvec4 points;  // along x, y, z; w: bit 0, some are missing; 1, each passage counts
+    uvec4 points;  // along x, y, z; w: bit 0, some are missing; 1, each passage counts; 2, light falls
     uvec4 clipLo, clipHi;
     double unitLength, steep, steepest;
 } cells;
@@ -24,6 +24,8 @@ layout(std430, binding = 2) readonly buffer Missing { uint missing[]; };  // a b
 layout(std430, binding = 3) readonly buffer Ranges { dvec2 ranges[]; };
 layout(std430, binding = 4) buffer Starts { uint starts[]; };  // of each workgroup
 layout(std430, binding = 5) writeonly buffer Pieces { Piece pieces[]; };
+layout(std430, binding = 6) readonly buffer CornerSlopes { uvec2 cornerSlopes[]; };  // of CORNERS, / kSlopesOf
+layout(std430, binding = 7) writeonly buffer Slopes { float slopes[]; };  // as fragments read them
 
 const double kThinnest = 1e-2LF;  // as cell_splat.h has it
 
@@ -71,6 +73,8 @@ struct Corners {
     uint octants;  // that are seen, a bit each
 };
 
+const double kSlopesOf = 4.0LF;  // what slopes of values are divided by
+
 uvec3 pointAt(uvec3 cell, uint corner) {
     const uvec3 up = max(cell + uvec3(corner & 1u, corner >> 1 & 1u, corner >> 2), uvec3(1u)) - 1u;
     return min(up, cells.points.xyz - 1u);
@@ -98,6 +102,11 @@ double meanOfNearest(Corners c, uint corner) {
     return 0.0LF;  // none is there, and nothing is seen
 }
 
+// Whether that is the value of a point that is there.
+bool isThere(uint point, double v) {
+    return isValue(v) && ((cells.points.w & 1u) == 0u || (missing[point >> 5] >> (point & 31u) & 1u) == 0u);
+}
+
 // Of the cell that is the place-th asked for.
 Corners cornersOf(uint place, uvec3 cell) {
     Corners c;
@@ -107,13 +116,11 @@ Corners cornersOf(uint place, uvec3 cell) {
         const uint point = p.x + cells.points.x * (p.y + cells.points.y * p.z);
 #ifdef CORNERS
         const double v = valueAt(8u * place + k);
-        const bool isThere = isValue(v);
+        if (!isValue(v)) continue;
 #else
         const double v = valueAt(point);
-        const bool isThere =
-            isValue(v) && ((cells.points.w & 1u) == 0u || (missing[point >> 5] >> (point & 31u) & 1u) == 0u);
+        if (!isThere(point, v)) continue;
 #endif
-        if (!isThere) continue;
         c.values.of[k] = unpackDouble2x32(v);
         c.octants |= 1u << k;
     }
@@ -144,12 +151,72 @@ Eight cornersOf(Corners c, uint octant) {
     return e;
 }
 
+// As cell::coefficients(), the corners' order kept.
+void toCoefficients(inout float f[8]) {
+    for (uint step = 1u; step < 8u; step *= 2u) {
+        for (uint k = 0u; k < 8u; ++k) {
+            if ((k & step) != 0u) continue;
+            const float a = f[k], b = f[k + step];
+            f[k] = (a + b) / 2.0;
+            f[k + step] = b - a;
+        }
+    }
+}
+
 bool touches(double least, double greatest, dvec2 range) { return least <= range.y && greatest >= range.x; }
 
 // Whether a passage through the range counts, however short it is.
 bool isThin(double extent, dvec2 range, dvec3 size) {
     return (cells.points.w & 2u) != 0u && extent > 0.0LF &&
            extent / (range.y - range.x) * 2.0LF * length(cells.unitLength / size) > 1.0LF;
+}
+
+// What values / kSlopesOf change a unit of length there, along an axis; as PointSlopes has it
+// (render/splat/cell_slopes.h).
+double slopeAt(uvec3 at, uint axis) {
+#ifdef CORNERS
+    return 0.0LF;  // not asked for
+#else
+    const uvec3 steps = uvec3(1u, cells.points.x, cells.points.x * cells.points.y);
+    const uvec3 n = cells.points.xyz + 1u;
+    const uint point = at.x + steps.y * at.y + steps.z * at.z;
+    const int first = int(axis == 0u ? 0u : axis == 1u ? n.x : n.x + n.y) + int(at[axis]);
+    const bool hasBelow = at[axis] > 0u, hasAbove = at[axis] + 1u < cells.points[axis];
+    const uint low = hasBelow ? point - steps[axis] : point, up = hasAbove ? point + steps[axis] : point;
+    const double below = valueAt(low), above = valueAt(up);
+    const bool fromBelow = hasBelow && isThere(low, below), toAbove = hasAbove && isThere(up, above);
+    const double here = valueAt(point);
+    if (!(fromBelow && toAbove) && !isThere(point, here)) return 0.0LF;
+    const double way = (fromBelow ? double(texelFetch(axisSides, first).y) : 0.0LF) +
+                       (toAbove ? double(texelFetch(axisSides, first + 1).y) : 0.0LF);
+    if (way == 0.0LF) return 0.0LF;
+    return ((toAbove ? above : here) / kSlopesOf - (fromBelow ? below : here) / kSlopesOf) / way;
+#endif
+}
+
+// Of the piece that becomes the to-th, of a cell whose place is the place-th, and of this size.
+void takeSlopes(uint to, uint place, uvec3 cell, uint octant, dvec3 size, double extent) {
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        Eight e;
+        for (uint k = 0u; k < 8u; ++k) {
+#ifdef CORNERS
+            const double slope = packDouble2x32(cornerSlopes[3u * (8u * place + k) + axis]);
+#else
+            const double slope = slopeAt(pointAt(cell, k), axis);
+#endif
+            const double changes = extent > 0.0LF ? slope / extent * kSlopesOf * size[axis] : 0.0LF;
+            e.of[k] = unpackDouble2x32(clamp(changes, -1e9LF, 1e9LF));
+        }
+        Corners c;
+        c.values = e;
+        const Eight of = cornersOf(c, octant);
+        float f[8];
+        for (uint k = 0u; k < 8u; ++k) f[k] = float(at(of, k));
+        toCoefficients(f);
+        const uint begin = 24u * to + 8u * axis;
+        const uint order[8] = uint[8](0u, 1u, 2u, 4u, 3u, 5u, 6u, 7u);
+        for (uint k = 0u; k < 8u; ++k) slopes[begin + k] = f[order[k]];
+    }
 }
 
 float floatPlace(double at) { return float(clamp(at, -1e30LF, 1e30LF)); }
@@ -181,14 +248,7 @@ Piece pieceOf(Eight values, double least, double greatest, dvec2 range, bool thi
         precise double apart = at(values, k) - reference;
         f[k] = float(apart / extent);
     }
-    for (uint step = 1u; step < 8u; step *= 2u) {
-        for (uint k = 0u; k < 8u; ++k) {
-            if ((k & step) != 0u) continue;
-            const float a = f[k], b = f[k + step];
-            f[k] = (a + b) / 2.0;
-            f[k + step] = b - a;
-        }
-    }
+    toCoefficients(f);
     p.low = vec4(f[0], f[1], f[2], f[4]);
     p.high = vec4(f[3], f[5], f[6], f[7]);
     const bool crossesLeast = thin || least < range.x, crossesMost = thin || greatest > range.y;
@@ -206,8 +266,8 @@ Piece pieceOf(Eight values, double least, double greatest, dvec2 range, bool thi
     return p;
 }
 
-// What is to be seen of a cell, from that place on if `writes`; returns how many.
-uint take(Corners c, uint number, uvec3 cell, bool writes, uint first) {
+// What is to be seen of a cell, the place-th asked for, from that place on if `writes`; returns how many.
+uint take(Corners c, uint place, uint number, uvec3 cell, bool writes, uint first) {
     const uvec3 n = cells.points.xyz + 1u;
     const bool isWhole = c.octants == 255u;
     uint count = 0u;
@@ -234,6 +294,9 @@ uint take(Corners c, uint number, uvec3 cell, bool writes, uint first) {
                 p.cell = number;
                 p.kind |= octant | part.w << 8;
                 pieces[first + count] = p;
+                if ((cells.points.w & 4u) != 0u)
+                    takeSlopes(first + count, place, cell, octant, isWhole ? size : 0.5LF * size,
+                               0.5LF * greatest - 0.5LF * least);
             }
             ++count;
         }
@@ -270,9 +333,9 @@ void main() {
         cell = uvec3(number - row * n.x, row - slice * n.y, slice);
         c = cornersOf(part.x + i, cell);
     }
-    const uint count = take(c, number, cell, false, 0u), inGroup = before(own, count);
+    const uint count = take(c, part.x + i, number, cell, false, 0u), inGroup = before(own, count);
     if (makes) {
-        if (count > 0u) take(c, number, cell, true, starts[part.z + group] + inGroup);
+        if (count > 0u) take(c, part.x + i, number, cell, true, starts[part.z + group] + inGroup);
     } else if (own == 255u && group * 256u < part.y) {
         starts[part.z + group] = sums[255];
     }

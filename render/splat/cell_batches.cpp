@@ -8,6 +8,7 @@ namespace render {
 
 CellBatches::CellBatches(const Scene& scene) : scene_(scene), indices_(scene.cells->size()) {
     constexpr std::size_t kTogether = 8;
+    if (scene.light != Light::Off && !scene.placed.isMesh()) slopes_.emplace(scene);
     if (scene.placed.isMesh() || !scene.clip.holdsAll() || !scene.cells->field().missing.empty())
         return;
     std::size_t ranges = 1;
@@ -56,7 +57,9 @@ bool CellBatches::addWhole(std::span<const T> values, std::span<const CellOfLaye
             }
             pieces.lo[to] = range.lo;
             pieces.hi[to] = range.hi;
-            pieces.layer[to++] = of.layer;
+            pieces.layer[to] = of.layer;
+            pieces.octant[to] = kWholeCell;
+            pieces.cell[to++] = of.cell;
         }
     }
     if (!(none == 0)) return false;
@@ -76,10 +79,11 @@ void CellBatches::prefetch(std::span<const T> values, std::uint32_t cell) const 
 void CellBatches::forEach(std::span<const CellOfLayer> cells, PieceBatch& pieces,
                           const std::function<void()>& use) const {
     const auto addAny = [&](std::span<const CellOfLayer> some) {
-        forEachPiece(scene_, some, [&](const ValuedCell& piece, const CellOfLayer& of, unsigned) {
-            pieces.add(piece, of.layer);
-            if (pieces.isFull()) use();
-        });
+        forEachPiece(scene_, some,
+                     [&](const ValuedCell& piece, const CellOfLayer& of, unsigned octant) {
+                         pieces.add(piece, of, octant);
+                         if (pieces.isFull()) use();
+                     });
     };
     if (together_ == 0) {
         addAny(cells);

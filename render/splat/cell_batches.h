@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,8 @@ class CellBatches {
     // they may have no room for more, and at the end. REQUIRES: not of a mesh.
     void forEach(std::span<const CellOfLayer> cells, PieceBatch& pieces,
                  const std::function<void()>& use) const;
+    // Null where no light falls on them.
+    const PointSlopes* slopes() const { return slopes_ ? &*slopes_ : nullptr; }
 
  private:
     // Of a cell along an axis: between which places it lies, and what the points at both ends add
@@ -37,6 +40,7 @@ class CellBatches {
     void prefetch(std::span<const T> values, std::uint32_t cell) const;
 
     const Scene& scene_;
+    std::optional<PointSlopes> slopes_;
     timeseries::IndicesAlong indices_;
     std::array<std::vector<Side>, 3> sides_;
     // So many cells are added together where all are whole, as so many pieces; none where cells of

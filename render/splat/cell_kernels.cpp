@@ -17,7 +17,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 template <Channels kChannels, bool kByValue, Lit kLit>
 HWY_INLINE void addCells(const CellView& view, std::span<const SeenCell> cells,
-                         std::span<const std::uint32_t> which, TileRoom& room) {
+                         std::span<const CellSlopes> slopes, std::span<const std::uint32_t> which,
+                         TileRoom& room) {
     SeenBlocks<Floats> blocks;
     const auto add = [&]() HWY_ATTR {
         addBlocks<kChannels, kByValue, kLit>(Floats(), view, room, blocks);
@@ -25,24 +26,26 @@ HWY_INLINE void addCells(const CellView& view, std::span<const SeenCell> cells,
     for (std::size_t i = 0; i < which.size(); ++i) {
         if (kChannels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
         prefetch(cells[which[std::min(i + kAhead, which.size() - 1)]]);
-        meetCell(Floats(), view, cells[which[i]], room, blocks, add);
+        const CellSlopes* const lit = kLit == Lit::No ? nullptr : &slopes[which[i]];
+        meetCell(Floats(), view, cells[which[i]], lit, room, blocks, add);
     }
     add();
 }
 
 HWY_ATTR void SumCells(const CellView& view, std::span<const SeenCell> cells,
-                       std::span<const std::uint32_t> which, TileRoom& room) {
+                       std::span<const CellSlopes> slopes, std::span<const std::uint32_t> which,
+                       TileRoom& room) {
     const auto add = [&]<Channels kChannels, Lit kLit = Lit::No>() HWY_ATTR {
         if (view.byValue)
-            addCells<kChannels, true, kLit>(view, cells, which, room);
+            addCells<kChannels, true, kLit>(view, cells, slopes, which, room);
         else
-            addCells<kChannels, false, kLit>(view, cells, which, room);
+            addCells<kChannels, false, kLit>(view, cells, slopes, which, room);
     };
     switch (view.channels) {
         case Channels::Weight:
-            return addCells<Channels::Weight, false, Lit::No>(view, cells, which, room);
+            return addCells<Channels::Weight, false, Lit::No>(view, cells, slopes, which, room);
         case Channels::Count:
-            return addCells<Channels::Count, false, Lit::No>(view, cells, which, room);
+            return addCells<Channels::Count, false, Lit::No>(view, cells, slopes, which, room);
         case Channels::WeightedColor:
             return add.template operator()<Channels::WeightedColor>();
         case Channels::Over:
@@ -62,8 +65,9 @@ namespace render {
 HWY_EXPORT(SumCells);
 
 void sumCells(const CellView& view, std::span<const SeenCell> cells,
-              std::span<const std::uint32_t> which, TileRoom& room) {
-    HWY_DYNAMIC_DISPATCH(SumCells)(view, cells, which, room);
+              std::span<const CellSlopes> slopes, std::span<const std::uint32_t> which,
+              TileRoom& room) {
+    HWY_DYNAMIC_DISPATCH(SumCells)(view, cells, slopes, which, room);
 }
 }  // namespace render
 #endif

@@ -286,12 +286,10 @@ SeenOctants seenOctants(const Scene& scene, std::uint32_t number) {
 
 ValuedCell octantOf(const ValuedCell& cell, unsigned octant) {
     ValuedCell piece = cell;
-    const glm::dvec3 first(octant & 1 ? 0.5 : 0, octant & 2 ? 0.5 : 0, octant & 4 ? 0.5 : 0);
-    piece.from = glm::mix(cell.from, cell.to, first);
-    piece.to = glm::mix(cell.from, cell.to, first + 0.5);
+    piece.from = glm::mix(cell.from, cell.to, placeInOctant(octant, 0));
+    piece.to = glm::mix(cell.from, cell.to, placeInOctant(octant, 7));
     for (unsigned c = 0; c < 8; ++c)
-        piece.corners[c] = render::cell::valueAt(
-            cell.corners, first + 0.5 * glm::dvec3(c & 1, c >> 1 & 1, c >> 2));
+        piece.corners[c] = render::cell::valueAt(cell.corners, placeInOctant(octant, c));
     return piece;
 }
 

@@ -158,6 +158,11 @@ struct SeenOctants {
     unsigned octants = 0;  // a bit each, numbered x fastest
 };
 SeenOctants seenOctants(const Scene& scene, std::uint32_t number);
+// A corner of an octant, in its cell, [0, 1] along each axis.
+inline glm::dvec3 placeInOctant(unsigned octant, unsigned corner) {
+    const auto side = [](unsigned bits) { return glm::dvec3(bits & 1, bits >> 1 & 1, bits >> 2); };
+    return 0.5 * (side(octant) + side(corner));
+}
 // One of them.
 ValuedCell octantOf(const ValuedCell& cell, unsigned octant);
 

@@ -28,6 +28,7 @@ struct SeenBlocks {
         alignas(64) Row value, values[kPieces + 1], width, perWidth;
         alignas(64) Row weight, front, back, diffuse, specular;
         const SeenCell* cell;
+        const CellSlopes* slopes;  // where light falls on them
         std::size_t at;
     };
     Block all[kMost];
@@ -42,8 +43,9 @@ struct SeenBlocks {
 
 // Where rays are inside: full blocks are passed to use().
 template <class Lanes, class Use>
-HWY_INLINE void meetCell(Lanes lanes, const CellView& view, const SeenCell& c, const TileRoom& room,
-                         SeenBlocks<Lanes>& blocks, const Use& use) {
+HWY_INLINE void meetCell(Lanes lanes, const CellView& view, const SeenCell& c,
+                         const CellSlopes* slopes, const TileRoom& room, SeenBlocks<Lanes>& blocks,
+                         const Use& use) {
     using V = hn::Vec<Lanes>;
     constexpr PixelBlock<Lanes, kTileStride> pixels;
     constexpr int kColumns = static_cast<int>(pixels.kColumns);
@@ -78,6 +80,7 @@ HWY_INLINE void meetCell(Lanes lanes, const CellView& view, const SeenCell& c, c
             hn::Store(r.length, lanes, block.length);
             hn::Store(r.depth, lanes, block.depth);
             block.cell = &c;
+            block.slopes = slopes;
             block.at = at;
             // Whether any ray is inside nobody foresees: no branch asks.
             const bool some = !hn::AllFalse(lanes, hn::Gt(r.length, hn::Zero(lanes)));
@@ -115,7 +118,8 @@ HWY_INLINE void followField(Lanes lanes, const CellView& view, const TileRoom& r
         const LightLanes<Lanes> light(lanes, view, c);
         constexpr PixelBlock<Lanes, kTileStride> pixels;
         hn::Vec<Lanes> diffuse, specular;
-        light.template shade<kLit>(view, c, r, cell.dot(r.gradient, r.along),
+        cell.lookAtRange(c, r);
+        light.template shade<kLit>(view, c, *block.slopes, r,
                                    pixels.load(lanes, room.factor.data() + block.at), diffuse,
                                    specular);
         hn::Store(diffuse, lanes, block.diffuse);

@@ -8,6 +8,7 @@
 #endif
 
 #include "render/splat/cell_range-inl.h"
+#include "render/splat/cell_slopes.h"
 #include "render/splat/cell_view.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -125,6 +126,22 @@ struct CellLanes {
         ends(1, values[0], values[3]);
         ends(1 / 3.0f, values[1], values[2]);
     }
+    // Moves `middle` to where the field is as if it were linear along the ray: the middle of what
+    // lies in the range.
+    HWY_INLINE void lookAtRange(const SeenCell& c, RayParts<Lanes>& r) const {
+        if (!c.crossesLeast() && !c.crossesMost()) return;
+        const V half = hn::Mul(hn::Set(lanes, 0.5f), r.length);
+        const V change = dot(r.gradient, r.along), tiny = hn::Set(lanes, 1e-12f);
+        const V per = reciprocal(lanes, hn::CopySign(hn::Max(hn::Abs(change), tiny), change));
+        const auto at = [&](float bound) HWY_ATTR {
+            const V way = hn::Mul(hn::Sub(hn::Set(lanes, bound), r.value), per);
+            return hn::Min(hn::Max(way, hn::Neg(half)), half);
+        };
+        const V ends =
+            hn::Add(at(c.crossesLeast() ? c.least : -2.0f), at(c.crossesMost() ? c.most : 2.0f));
+        for (std::size_t a = 0; a < 3; ++a)
+            r.middle[a] = hn::MulAdd(hn::Mul(hn::Set(lanes, 0.5f), ends), r.along[a], r.middle[a]);
+    }
     // The square of the width of the ramp that a pixel makes of an end of the range.
     HWY_INLINE V acrossPixel2(const RayParts<Lanes>& r) const {
         constexpr float kLeast = static_cast<float>(2 * kLeastChange);
@@ -159,11 +176,21 @@ struct LightLanes {
         for (std::size_t k = 0; k < 6; ++k) metric[k] = hn::Set(l, view.metric[k]);
     }
     template <Lit kLit>
-    HWY_INLINE void shade(const CellView& view, const SeenCell& c, const RayParts<Lanes>& r,
-                          V change, V factor, V& diffuse, V& specular) const {
+    HWY_INLINE void shade(const CellView& view, const SeenCell& c, const CellSlopes& slopes,
+                          const RayParts<Lanes>& r, V factor, V& diffuse, V& specular) const {
         const V one = hn::Set(lanes, 1.0f), tiny = hn::Set(lanes, 1e-30f);
-        V g[3];
-        for (std::size_t a = 0; a < 3; ++a) g[a] = hn::Mul(r.gradient[a], perSize[a]);
+        const V *const m = r.middle, xy = hn::Mul(m[0], m[1]), xz = hn::Mul(m[0], m[2]),
+                       yz = hn::Mul(m[1], m[2]), xyz = hn::Mul(xy, m[2]);
+        V g[3], change = hn::Zero(lanes);
+        for (std::size_t a = 0; a < 3; ++a) {
+            const auto f = [&](std::size_t k) HWY_ATTR { return hn::Set(lanes, slopes[a][k]); };
+            V sum = hn::MulAdd(f(1), m[0], f(0));
+            sum = hn::MulAdd(f(2), m[1], hn::MulAdd(f(3), m[2], sum));
+            sum = hn::MulAdd(f(4), xy, hn::MulAdd(f(5), xz, sum));
+            sum = hn::MulAdd(f(6), yz, hn::MulAdd(f(7), xyz, sum));
+            change = hn::MulAdd(sum, r.along[a], change);
+            g[a] = hn::Mul(sum, perSize[a]);
+        }
         V g2 = hn::Mul(hn::Mul(metric[0], g[0]), g[0]);
         g2 = hn::MulAdd(hn::Mul(metric[1], g[1]), g[1], g2);
         g2 = hn::MulAdd(hn::Mul(metric[2], g[2]), g[2], g2);

@@ -27,7 +27,8 @@ constexpr std::size_t kCellsWorthAThread = 1 << 9;
 // Pieces of cells that one thread has looked at, and which tiles they touch.
 struct CellMemory::Seen {
     timeseries::PageVector<SeenCell> cells;
-    std::vector<SeenTet> tets;  // of a mesh, instead of these
+    timeseries::PageVector<CellSlopes> slopes;  // of each, where light falls on them
+    std::vector<SeenTet> tets;                  // of a mesh, instead of these
     PieceBatch pieces;
     std::vector<TileSpan> spans;
     TileBins bins;
@@ -38,7 +39,7 @@ struct CellMemory::Seen {
     void sum(const CellView& view, std::size_t tile, TileRoom& room) const {
         const auto which = std::span(binned).subspan(bins.first(tile), bins.count(tile));
         if (tets.empty())
-            sumCells(view, cells, which, room);
+            sumCells(view, cells, slopes, which, room);
         else
             sumTets(view, tets, which, room);
     }
@@ -47,6 +48,7 @@ struct CellMemory::Seen {
 void CellMemory::Seen::look(const Scene& scene, const CellView& view, const CellBatches& batches,
                             std::span<const CellOfLayer> part) {
     cells.clear();
+    slopes.clear();
     tets.clear();
     spans.clear();
     if (scene.placed.isMesh()) {
@@ -60,7 +62,7 @@ void CellMemory::Seen::look(const Scene& scene, const CellView& view, const Cell
                    });
     } else {
         batches.forEach(part, pieces, [&] {
-            seeCells(view, scene, pieces, cells, spans);
+            seeCells(view, scene, batches.slopes(), pieces, cells, slopes, spans);
             pieces.count = 0;
         });
     }

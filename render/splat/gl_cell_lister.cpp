@@ -28,7 +28,7 @@ struct CellsBlock {
     glm::uvec4 points, clipLo, clipHi;
     double unitLength, steep, steepest, unused = 0;
 };
-constexpr std::uint32_t kSomeMissing = 1, kPerCrossing = 2;
+constexpr std::uint32_t kSomeMissing = 1, kPerCrossing = 2, kLit = 4;
 
 constexpr std::uint32_t kGroup = 256;  // cells
 constexpr std::size_t kCorners = 8;
@@ -50,7 +50,8 @@ CellsBlock blockOf(const Scene& scene) {
     CellsBlock b{};
     b.points = {scene.cells->size() - 1u,
                 (field.missing.empty() ? 0 : kSomeMissing) |
-                    (scene.opacityPer == OpacityPer::Crossing ? kPerCrossing : 0)};
+                    (scene.opacityPer == OpacityPer::Crossing ? kPerCrossing : 0) |
+                    (scene.light == Light::Off ? 0 : kLit)};
     b.clipLo = {scene.clip.lo, 0};
     b.clipHi = {scene.clip.hi, 0};
     b.unitLength = scene.placed.unitLength();
@@ -66,20 +67,38 @@ glm::dvec2 mapOf(const RangeStyle& style) {
     return {map->lo, std::max(map->halfWidth(), 0.0)};
 }
 
-using Corners = std::array<double, kCorners>;
-std::vector<Corners> cornersOf(const timeseries::CellIndex& cells,
-                               std::span<const std::uint32_t> numbers) {
+// What `of` says of each of these cells.
+template <typename Of>
+auto ofEach(const timeseries::CellIndex& cells, std::span<const std::uint32_t> numbers,
+            const Of& of) {
     constexpr std::size_t kWorthAThread = 1 << 12, kAhead = 16;
-    std::vector<Corners> corners(numbers.size());
-    const unsigned shared = threadsFor(corners.size(), kWorthAThread, sharingThreads());
+    std::vector<decltype(of(numbers[0]))> out(numbers.size());
+    const unsigned shared = threadsFor(out.size(), kWorthAThread, sharingThreads());
     sharing(shared, [&](unsigned k) {
-        const std::size_t end = corners.size() * (k + 1) / shared;
-        for (std::size_t i = corners.size() * k / shared; i < end; ++i) {
+        const std::size_t end = out.size() * (k + 1) / shared;
+        for (std::size_t i = out.size() * k / shared; i < end; ++i) {
             if (i + kAhead < end) cells.prefetch(numbers[i + kAhead]);
-            corners[i] = cells.cornersOf().values(timeseries::indicesOf(numbers[i], cells.size()));
+            out[i] = of(numbers[i]);
         }
     });
-    return corners;
+    return out;
+}
+using Corners = std::array<double, kCorners>;
+gl::Buffer cornersOf(const timeseries::CellIndex& cells, std::span<const std::uint32_t> numbers) {
+    return gl::Buffer(
+        std::span<const Corners>(ofEach(cells, numbers, [&](std::uint32_t number) -> Corners {
+            return cells.cornersOf().values(timeseries::indicesOf(number, cells.size()));
+        })));
+}
+// Of what values / kSlopesOf are there: differences of any are numbers then.
+constexpr double kSlopesOf = 4;
+using CornerSlopes = std::array<glm::dvec3, kCorners>;
+gl::Buffer cornerSlopesOf(const Scene& scene, std::span<const std::uint32_t> numbers) {
+    const PointSlopes points(scene);
+    return gl::Buffer(std::span<const CornerSlopes>(
+        ofEach(*scene.cells, numbers, [&](std::uint32_t number) -> CornerSlopes {
+            return points.atCorners(timeseries::indicesOf(number, scene.cells->size()), kSlopesOf);
+        })));
 }
 
 }  // namespace
@@ -87,7 +106,7 @@ std::vector<Corners> cornersOf(const timeseries::CellIndex& cells,
 struct GlCellLister::Given {
     const gl::Program* program;
     gl::Buffer cells, numbers, ranges, starts;
-    std::optional<gl::Buffer> corners;  // where the field is not there
+    std::optional<gl::Buffer> corners, cornerSlopes;  // where the field is not there
     const gl::Buffer *values, *missing;
 };
 
@@ -199,15 +218,17 @@ GlCellLister::Given GlCellLister::given(const Scene& scene, const Asked& asked,
         gl::Buffer(std::span<const glm::dvec2>(asked.ranges)),
         gl::Buffer(std::span<const std::uint32_t>(std::vector<std::uint32_t>(asked.groups + 1))),
         {},
+        {},
         isThere ? &*values_ : nullptr,
         isThere && missing_ ? &*missing_ : nullptr};
-    if (!isThere)
-        given.corners.emplace(std::span<const Corners>(cornersOf(*scene.cells, asked.numbers)));
+    if (isThere) return given;
+    given.corners.emplace(cornersOf(*scene.cells, asked.numbers));
+    if (scene.light != Light::Off) given.cornerSlopes.emplace(cornerSlopesOf(scene, asked.numbers));
     return given;
 }
 
 void GlCellLister::run(const Scene& scene, const Asked& asked, const Given& given,
-                       const gl::Buffer* pieces) {
+                       const Listed* makes) {
     glUseProgram(given.program->id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, given.cells.id());
     given.numbers.bindStorage(0);
@@ -215,8 +236,10 @@ void GlCellLister::run(const Scene& scene, const Asked& asked, const Given& give
     (given.missing ? *given.missing : given.numbers).bindStorage(2);
     given.ranges.bindStorage(3);
     given.starts.bindStorage(4);
-    (pieces ? *pieces : given.starts).bindStorage(5);
-    glUniform1i(3, pieces ? 1 : 0);
+    (makes ? *makes->pieces : given.starts).bindStorage(5);
+    (given.cornerSlopes ? *given.cornerSlopes : given.numbers).bindStorage(6);
+    (makes && makes->slopes ? *makes->slopes : given.starts).bindStorage(7);
+    glUniform1i(3, makes ? 1 : 0);
     for (std::size_t k = 0; k < asked.parts.size(); ++k) {
         const Asked::Part& part = asked.parts[k];
         const glm::dvec2 map = mapOf(scene.layers[k].style);
@@ -248,12 +271,14 @@ GlCellLister::Listed GlCellLister::operator()(const Scene& scene, const gl::Buff
     const Asked asked = askedOf(scene);
     const Given given = this->given(scene, asked, mostBytes);
     glBindTextureUnit(0, sides.id());
-    run(scene, asked, given, nullptr);
-    Listed listed{nullptr, sum(asked, given)};
-    const std::uint64_t bytes = std::uint64_t{listed.firsts.back()} * sizeof(GlCell);
-    if (bytes > mostBytes) throw std::runtime_error(kTooManyPieces);
-    listed.pieces = std::make_unique<gl::Buffer>(bytes);
-    run(scene, asked, given, &*listed.pieces);
+    run(scene, asked, given);
+    Listed listed{nullptr, nullptr, sum(asked, given)};
+    const std::uint64_t count = listed.firsts.back();
+    if (count * GlCells::bytesOfOne(scene) > mostBytes) throw std::runtime_error(kTooManyPieces);
+    listed.pieces = std::make_unique<gl::Buffer>(count * sizeof(GlCell));
+    if (scene.light != Light::Off)
+        listed.slopes = std::make_unique<gl::Buffer>(count * sizeof(CellSlopes));
+    run(scene, asked, given, &listed);
     return listed;
 }
 

@@ -20,6 +20,7 @@ class GlCellLister {
  public:
     struct Listed {
         std::unique_ptr<gl::Buffer> pieces;  // GlCell, layer by layer, as cells are listed
+        std::unique_ptr<gl::Buffer> slopes;  // CellSlopes of each, where light falls on them
         std::vector<std::uint32_t> firsts;   // of each layer, and the end
     };
     // `sides`: as GlCells has them. Throws std::runtime_error where the pieces are more than
@@ -47,7 +48,8 @@ class GlCellLister {
     struct Given;
     Given given(const Scene& scene, const Asked& asked, std::uint64_t mostBytes);
     // Counts the pieces of each workgroup, or makes them.
-    void run(const Scene& scene, const Asked& asked, const Given& given, const gl::Buffer* pieces);
+    void run(const Scene& scene, const Asked& asked, const Given& given,
+             const Listed* makes = nullptr);
     // Counts -> the first piece of each layer, and the end.
     std::vector<std::uint32_t> sum(const Asked& asked, const Given& given);
 

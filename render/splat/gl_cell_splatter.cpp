@@ -228,6 +228,7 @@ void GlCellSplatter::draw(const Draw& what, const GlTargets& targets) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, layers_.layerBlock().id());
     what.pieces.pieces().bindStorage(0);
     if (what.order) what.order->bindStorage(1);
+    if (const gl::Buffer* slopes = what.pieces.slopes()) slopes->bindStorage(2);
     if (sides) glBindTextureUnit(0, sides->id());
     glBindTextureUnit(1, layers_.colorMaps().id());
     // Read where it is also attached, which is defined after a barrier as long as nothing writes

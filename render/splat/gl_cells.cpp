@@ -29,7 +29,12 @@ GlCells::GlCells(const Scene& scene, std::uint64_t mostBytes, GlCellLister& list
       sides_(std::span<const glm::vec2>(sidesOf(scene))),
       sidesTexture_(GL_RG32F, sides_) {
     GlCellLister::Listed listed = lister(scene, sidesTexture_, mostBytes);
+    slopes_ = std::move(listed.slopes);
     take(std::move(listed.pieces), std::move(listed.firsts));
+}
+
+std::uint64_t GlCells::bytes() const {
+    return GlPieces::bytes() + sides_.bytes() + (slopes_ ? slopes_->bytes() : 0);
 }
 
 glm::dvec3 GlCells::keyOf(const Scene& scene, const View& view) const {

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 
+#include "render/splat/cell_slopes.h"
 #include "render/splat/gl_pieces.h"
 
 namespace render {
@@ -23,7 +25,11 @@ struct GlCell {
 class GlCells final : public GlPieces {
  public:
     GlCells(const Scene& scene, std::uint64_t mostBytes, GlCellLister& lister);
-    std::uint64_t bytes() const override { return GlPieces::bytes() + sides_.bytes(); }
+    std::uint64_t bytes() const override;
+    const gl::Buffer* slopes() const override { return slopes_.get(); }
+    static std::uint64_t bytesOfOne(const Scene& scene) {
+        return sizeof(GlCell) + (scene.light == Light::Off ? 0 : sizeof(CellSlopes));
+    }
     const gl::BufferTexture* sides() const override { return &sidesTexture_; }
 
  private:
@@ -33,6 +39,7 @@ class GlCells final : public GlPieces {
                                             GlPieceOrder& order) const override;
 
     glm::uvec3 size_;  // of the grid, in cells
+    std::unique_ptr<gl::Buffer> slopes_;
     gl::Buffer sides_;
     gl::BufferTexture sidesTexture_;
 };

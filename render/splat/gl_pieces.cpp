@@ -49,7 +49,7 @@ std::uint64_t GlPieces::bytesOf(const Scene& scene) {
     std::uint64_t pieces = 0;
     for (const Layer& layer : scene.layers)
         pieces += cellCount(layer) * std::max<std::size_t>(layer.cells.ranges.size(), 1);
-    if (!scene.placed.isMesh()) return pieces * sizeof(GlCell);
+    if (!scene.placed.isMesh()) return pieces * GlCells::bytesOfOne(scene);
     return static_cast<std::uint64_t>(static_cast<double>(pieces) * GlTets::perCell(scene)) *
            sizeof(GlTet);
 }

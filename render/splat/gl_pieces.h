@@ -39,6 +39,8 @@ class GlPieces {
     bool areOf(const Scene& scene) const;
 
     const gl::Buffer& pieces() const { return *pieces_; }  // layer by layer
+    // CellSlopes of each, where light falls on cells; else null.
+    virtual const gl::Buffer* slopes() const { return nullptr; }
     // Places in pieces() that a plane takes.
     std::pair<std::uint32_t, std::uint32_t> placesOf(Channels channels, std::size_t layer) const;
     // Places of all pieces as uints, the farthest first.

@@ -70,7 +70,8 @@ class Part {
     };
     std::vector<Stretch> stretches_;
     timeseries::PageVector<SeenCell> cells_;
-    std::vector<SeenTet> tets_;  // of a mesh, instead of these
+    timeseries::PageVector<CellSlopes> slopes_;  // of each, where light falls on them
+    std::vector<SeenTet> tets_;                  // of a mesh, instead of these
     PieceBatch pieces_;
     std::vector<TileSpan> cellSpans_;
     TileBins cellBins_, splatBins_;
@@ -82,7 +83,7 @@ void Part::lookAtCells(const Scene& scene, const CellView& view, const CellBatch
                        std::span<const CellOrPoint> some) {
     if (!scene.placed.isMesh())
         return batches.forEach(some, pieces_, [&] {
-            seeCells(view, scene, pieces_, cells_, cellSpans_);
+            seeCells(view, scene, batches.slopes(), pieces_, cells_, slopes_, cellSpans_);
             pieces_.count = 0;
         });
     forEachTet(scene, some, &view.seen.rays.eye, [&](const ValuedTet& tet, const CellOfLayer& of) {
@@ -98,6 +99,7 @@ void Part::look(const Scene& scene, const CellView& cells, const TileView& splat
                 std::span<const CellOrPoint> passed, Points& points, std::size_t first) {
     stretches_.clear();
     cells_.clear();
+    slopes_.clear();
     tets_.clear();
     cellSpans_.clear();
     const auto isPoint = [&](const CellOrPoint& of) { return scene.layers[of.layer].byPoints; };
@@ -186,7 +188,7 @@ void Part::sum(const CellView& cells, const TileView& splats, std::size_t tile, 
         if (lastCell == cell) continue;
         const auto some = cellsHere.subspan(cell, lastCell - cell);
         if (tets_.empty())
-            sumCells(cells, cells_, some, room);
+            sumCells(cells, cells_, slopes_, some, room);
         else
             sumTets(cells, tets_, some, room);
         cell = lastCell;

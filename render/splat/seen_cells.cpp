@@ -325,8 +325,9 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 HWY_EXPORT(FindCells);
 
-void seeCells(const CellView& view, const Scene& scene, const PieceBatch& pieces,
-              timeseries::PageVector<SeenCell>& cells, std::vector<TileSpan>& spans) {
+void seeCells(const CellView& view, const Scene& scene, const PointSlopes* points,
+              const PieceBatch& pieces, timeseries::PageVector<SeenCell>& cells,
+              timeseries::PageVector<CellSlopes>& slopes, std::vector<TileSpan>& spans) {
     SeenRows rows;
     for (std::size_t k = seen_cell::kTints; k < seen_cell::kSteep; ++k) rows.field[k].fill(0);
     std::size_t seen = cells.size();
@@ -342,6 +343,13 @@ void seeCells(const CellView& view, const Scene& scene, const PieceBatch& pieces
         takeTints(c, view, pieces.layer[i], scene.layers[pieces.layer[i]].style,
                   cell::coloredField({rows.reference[i], rows.extent[i]}, c.perRange > 0,
                                      pieces.lo[i], pieces.hi[i]));
+        if (view.light == Light::Off) continue;
+        glm::dvec3 size;
+        for (int a = 0; a < 3; ++a) {
+            const auto axis = static_cast<std::size_t>(a);
+            size[a] = pieces.to[axis][i] - pieces.from[axis][i];
+        }
+        slopes.push_back(points->in(pieces.cell[i], pieces.octant[i], size, rows.extent[i]));
     }
     cells.resize(static_cast<std::size_t>(end - cells.data()));
 }

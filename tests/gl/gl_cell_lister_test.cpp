@@ -20,8 +20,13 @@ using timeseries::Field;
 
 class GlCellListing : public tests::GlCellPlanes {
  protected:
-    static std::vector<GlCell> listed(const Scene& scene, GlCellLister& lister,
-                                      std::uint64_t most = std::uint64_t{1} << 24) {
+    struct Pieces {
+        std::vector<GlCell> cells;
+        std::vector<CellSlopes> slopes;  // of each, where light falls on them
+    };
+
+    static Pieces listed(const Scene& scene, GlCellLister& lister,
+                         std::uint64_t most = std::uint64_t{1} << 24) {
         const auto pieces = whole(scene, most, lister);
         std::uint32_t end = 0;
         for (std::size_t k = 0; k < scene.layers.size(); ++k) {
@@ -30,12 +35,15 @@ class GlCellListing : public tests::GlCellPlanes {
             end = last;
         }
         EXPECT_EQ(pieces->placesOf(Channels::Over, 0), std::pair(0u, end));
-        return tests::contentsOf<GlCell>(pieces->pieces(), end);
+        EXPECT_EQ(pieces->slopes() != nullptr, scene.light != Light::Off);
+        Pieces out{tests::contentsOf<GlCell>(pieces->pieces(), end), {}};
+        if (pieces->slopes()) out.slopes = tests::contentsOf<CellSlopes>(*pieces->slopes(), end);
+        return out;
     }
 
     // What the processor sees of each candidate, one by one.
-    static std::vector<GlCell> expected(const Scene& scene) {
-        std::vector<GlCell> all;
+    static Pieces expected(const Scene& scene) {
+        Pieces all;
         for (std::size_t layer = 0; layer < scene.layers.size(); ++layer) {
             const Layer& of = scene.layers[layer];
             for (const timeseries::Run& run : of.cells.candidates)
@@ -44,8 +52,8 @@ class GlCellListing : public tests::GlCellPlanes {
         }
         return all;
     }
-    static void see(const Scene& scene, std::size_t layer, std::uint32_t number,
-                    std::vector<GlCell>& all) {
+    static void see(const Scene& scene, std::size_t layer, std::uint32_t number, Pieces& all) {
+        const PointSlopes points(scene);
         const RangeStyle& style = scene.layers[layer].style;
         forEachPiece(scene, number, [&](ValuedCell piece, unsigned octant) {
             for (const auto& range : scene.layers[layer].cells.ranges) {
@@ -64,18 +72,28 @@ class GlCellListing : public tests::GlCellPlanes {
                          steepnessIn(s.extent, steepnessOf(scene)),
                          {}};
                 std::ranges::copy(s.f, c.f);
-                all.push_back(c);
+                all.cells.push_back(c);
+                if (scene.light == Light::Off) continue;
+                all.slopes.push_back(points.in(number, octant, piece.to - piece.from, s.extent));
             }
         });
     }
 
     // The same ones in the same order, their numbers to float.
-    static void expectAre(const std::vector<GlCell>& is, const std::vector<GlCell>& expected) {
+    static void expectAre(const Pieces& these, const Pieces& those) {
+        const std::vector<GlCell>&is = these.cells, &expected = those.cells;
         const auto near = [&](float a, float b, float rounded = 2e-6f) {
             return std::abs(a - b) <= rounded * std::max(1.0f, std::abs(b));
         };
         ASSERT_EQ(is.size(), expected.size());
         ASSERT_GT(is.size(), 40u);
+        ASSERT_EQ(these.slopes.size(), those.slopes.size());
+        for (std::size_t i = 0; i < these.slopes.size(); ++i)
+            for (std::size_t a = 0; a < 3; ++a)
+                for (std::size_t k = 0; k < 8; ++k)
+                    ASSERT_TRUE(near(these.slopes[i][a][k], those.slopes[i][a][k], 1e-5f))
+                        << i << " along " << a << ": " << testing::PrintToString(these.slopes[i][a])
+                        << " instead of " << testing::PrintToString(those.slopes[i][a]);
         for (std::size_t i = 0; i < is.size(); ++i) {
             const GlCell &a = is[i], &b = expected[i];
             ASSERT_EQ(a.cell, b.cell) << i;
@@ -163,7 +181,7 @@ TEST_F(GlCellListing, SendsTheFieldByAndBy) {
     const std::uint64_t field = world.scene.cells->field().bytes(),
                         once = 64 * cellCount(world.scene.layers[0]);
     ASSERT_LT(2 * once, field);
-    const std::vector<GlCell> pieces = expected(world.scene);
+    const Pieces pieces = expected(world.scene);
     std::uint64_t calls = 1;
     for (; calls < 100; ++calls) {
         expectAre(listed(world.scene, lister_), pieces);
@@ -188,8 +206,8 @@ TEST_F(GlCellListing, AFieldTooLargeStaysWhereItIs) {
                     {"min:max", "min:max"});
     select(world, 0, 1);
     world.scene.layers.erase(world.scene.layers.begin());
-    const std::vector<GlCell> pieces = expected(world.scene);
-    const std::uint64_t most = pieces.size() * sizeof(GlCell);
+    const Pieces pieces = expected(world.scene);
+    const std::uint64_t most = pieces.cells.size() * GlCells::bytesOfOne(world.scene);
     ASSERT_LT(most, world.scene.cells->field().bytes());
     for (int i = 0; i < 4; ++i) expectAre(listed(world.scene, lister_, most), pieces);
     EXPECT_EQ(lister_.bytes(), 0u);
@@ -222,11 +240,11 @@ TEST_F(GlCellListing, OctantsOfWhatIsMissingOrClippedAreTheProcessors) {
     select(world, -3, 2);
     auto parted = [](const GlCell& c) { return (c.kind & 15) != kWholeCell; };
     const auto pieces = expected(world.scene);
-    EXPECT_GT(std::ranges::count_if(pieces, parted), 100);
+    EXPECT_GT(std::ranges::count_if(pieces.cells, parted), 100);
     expectAre(listed(world.scene, lister_), pieces);
     world.scene.clip = {{2, 0, 5}, {9, 7, 11}};
     const auto clipped = expected(world.scene);
-    EXPECT_LT(clipped.size(), pieces.size());
+    EXPECT_LT(clipped.cells.size(), pieces.cells.size());
     expectAre(listed(world.scene, lister_), clipped);
 }
 

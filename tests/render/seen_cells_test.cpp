@@ -111,12 +111,13 @@ Looked look(const View& from, double side, OpacityPer per, int rays = 1) {
             const auto s = cellSplatAt<double>(view.seen, cell);
             const bool isSeen = hasPixels(s, view, -0.02);
             if (isSeen != hasPixels(s, view, 0.02)) continue;  // rounding may take or leave it
-            pieces.add(cell, 0);
+            pieces.add(cell, {}, kWholeCell);
             if (isSeen) expected.push_back(s);
         }
         timeseries::PageVector<SeenCell> seen;
+        timeseries::PageVector<CellSlopes> slopes;
         std::vector<TileSpan> spans;
-        seeCells(view, world.scene, pieces, seen, spans);
+        seeCells(view, world.scene, nullptr, pieces, seen, slopes, spans);
         EXPECT_EQ(seen.size(), expected.size());
         EXPECT_EQ(spans.size(), expected.size());
         for (std::size_t i = 0; i < std::min(seen.size(), expected.size()); ++i) {
@@ -161,10 +162,11 @@ TEST(SeenCells, KnowWhichRaysGoAlongTheirFaces) {
     const auto grazes = [&](const glm::dvec3& at) {
         ValuedCell cell{.from = at - 0.01, .to = at + 0.01, .corners = {}, .lo = -1, .hi = 1};
         PieceBatch pieces;
-        pieces.add(cell, 0);
+        pieces.add(cell, {}, kWholeCell);
         timeseries::PageVector<SeenCell> seen;
+        timeseries::PageVector<CellSlopes> slopes;
         std::vector<TileSpan> spans;
-        seeCells(view, world.scene, pieces, seen, spans);
+        seeCells(view, world.scene, nullptr, pieces, seen, slopes, spans);
         EXPECT_EQ(seen.size(), 1u);
         return !seen.empty() && seen[0].grazes();
     };

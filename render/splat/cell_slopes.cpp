@@ -1,0 +1,78 @@
+#include "render/splat/cell_slopes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/splat/cell_pieces.h"
+
+namespace render {
+
+PointSlopes::PointSlopes(const Scene& scene) : scene_(scene), cells_(scene.cells->size()) {
+    std::uint32_t step = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto& places = scene.placed.positions()[a];
+        const auto count = static_cast<std::uint32_t>(places.size());
+        const auto per = [&](std::uint32_t from, std::uint32_t to) {
+            return from == to ? 0 : 1 / (places[to] - places[from]);
+        };
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t below = i > 0 ? i - 1 : i, above = std::min(i + 1, count - 1);
+            along_[a].push_back({(i - below) * step, (above - i) * step, per(below, above),
+                                 per(below, i), per(i, above)});
+        }
+        step *= count;
+    }
+}
+
+glm::dvec3 PointSlopes::at(const glm::uvec3& point, double extent) const {
+    const timeseries::Field& field = scene_.cells->field();
+    const auto index = static_cast<std::uint32_t>(scene_.cells->cornersOf().indexOf(point));
+    const auto slopes = [&](const auto& values) {
+        const auto valueOf = [&](std::uint32_t i) {
+            return timeseries::finiteOr(values[i], !field.missing.empty() && field.missing[i]);
+        };
+        const auto apart = [&](double from, double to) {  // in halves, the whole may overflow
+            return 2 * ((0.5 * to - 0.5 * from) / extent);
+        };
+        glm::dvec3 slope;
+        for (int a = 0; a < 3; ++a) {
+            const Neighbours& to = along_[static_cast<std::size_t>(a)][point[a]];
+            const double below = valueOf(index - to.below), above = valueOf(index + to.above);
+            slope[a] = apart(below, above) * to.perBoth;
+            if (std::isfinite(slope[a])) continue;
+            const double here = valueOf(index);
+            slope[a] = std::isnan(above) ? apart(below, here) * to.perBelow
+                                         : apart(here, above) * to.perAbove;
+            if (!std::isfinite(slope[a])) slope[a] = 0;
+        }
+        return slope;
+    };
+    return std::visit(slopes, field.values);
+}
+
+std::array<glm::dvec3, 8> PointSlopes::atCorners(const glm::uvec3& cell, double extent) const {
+    std::array<glm::dvec3, 8> out;
+    for (unsigned c = 0; c < 8; ++c)
+        out[c] = at(scene_.cells->cornersOf().pointAt(cell, c), extent);
+    return out;
+}
+
+CellSlopes PointSlopes::in(std::uint32_t cell, unsigned octant, const glm::dvec3& size,
+                           double extent) const {
+    constexpr double kMost = 1e9;  // its square is a float
+    if (!(extent > 0)) return {};
+    const std::array<glm::dvec3, 8> slopes = atCorners(cells_(cell), extent);
+    CellSlopes out;
+    for (int a = 0; a < 3; ++a) {
+        std::array<double, 8> along{};
+        for (unsigned c = 0; c < 8; ++c)
+            along[c] = std::clamp(slopes[c][a] * size[a], -kMost, kMost);
+        std::array<double, 8> of = along;
+        for (unsigned c = 0; c < 8 && octant != kWholeCell; ++c)
+            of[c] = cell::valueAt(along, placeInOctant(octant, c));
+        std::ranges::copy(cell::coefficients(of), out[static_cast<std::size_t>(a)].begin());
+    }
+    return out;
+}
+
+}  // namespace render

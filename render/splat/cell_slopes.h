@@ -1,0 +1,43 @@
+// The gradient by which light falls on cells: central differences at points, trilinear between
+// them. It is the same on both sides of a face, which a cell's own is not, so that a surface looks
+// as smooth as the field is.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "render/model/scene.h"
+
+namespace render {
+
+// Of a piece of a cell whose field is reference + extent f, what f changes over the piece's size
+// along each axis: the coefficients of each, as those of CellSplat::f.
+using CellSlopes = std::array<std::array<float, 8>, 3>;
+
+// Of an upright grid. At its borders, and beside what is missing, differences are to one side. The
+// scene must outlive it.
+class PointSlopes {
+ public:
+    explicit PointSlopes(const Scene& scene);
+
+    // Of a cell's octant, or of all of it (kWholeCell), which is of this size.
+    CellSlopes in(std::uint32_t cell, unsigned octant, const glm::dvec3& size, double extent) const;
+    // At a cell's corners, what values / extent change a unit of length along each axis.
+    std::array<glm::dvec3, 8> atCorners(const glm::uvec3& cell, double extent) const;
+
+ private:
+    // Of a point along an axis: its neighbours, and what a difference is divided by.
+    struct Neighbours {
+        std::uint32_t below, above;
+        double perBoth, perBelow, perAbove;
+    };
+    glm::dvec3 at(const glm::uvec3& point, double extent) const;
+
+    const Scene& scene_;
+    timeseries::IndicesAlong cells_;
+    std::array<std::vector<Neighbours>, 3> along_;
+};
+
+}  // namespace render
