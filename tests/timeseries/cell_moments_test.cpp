@@ -9,6 +9,7 @@
 #include <memory>
 #include <random>
 
+#include "tests/support/trilinear.h"
 #include "tests/support/vector_targets.h"
 #include "timeseries/grid/cell_types.h"
 #include "timeseries/grid/solid_moments.h"
@@ -171,38 +172,10 @@ TEST(CellMoments, OfSolidsSideBySideAreThoseOfEach) {
     });
 }
 
-// The mean over a trilinear hexahedron, by Gauss's points: three along each side are exact for it.
 TEST(CellMoments, OfAHexahedronOfBentFacesAreThoseOfTheTrilinearOne) {
     const std::vector<glm::dvec3> corners{{0, 0, 0},   {1, 0.1, 0}, {1.2, 1, 0.3}, {0, 1, 0},
                                           {0, 0.2, 1}, {1, 0, 1.1}, {1, 1, 1.4},   {-0.2, 1, 1}};
-    const auto at = [&](const glm::dvec3& u) {
-        glm::dvec3 sum(0);
-        for (std::size_t k = 0; k < 8; ++k) {
-            const glm::bvec3 far((k & 3) == 1 || (k & 3) == 2, (k & 3) > 1, k > 3);
-            double share = 1;
-            for (int a = 0; a < 3; ++a) share *= far[a] ? u[a] : 1 - u[a];
-            sum += share * corners[k];
-        }
-        return sum;
-    };
-    const double away = std::sqrt(0.6) / 2;
-    double volume = 0;
-    for (const double x : {-away, 0.0, away})
-        for (const double y : {-away, 0.0, away})
-            for (const double z : {-away, 0.0, away}) {
-                const glm::dvec3 u = 0.5 + glm::dvec3(x, y, z);
-                double weight = 1;
-                for (int a = 0; a < 3; ++a) weight *= u[a] == 0.5 ? 8.0 / 18 : 5.0 / 18;
-                // Differences of a function that is linear along each coordinate are its slopes.
-                glm::dmat3 slopes;
-                for (int a = 0; a < 3; ++a) {
-                    glm::dvec3 more = u, less = u;
-                    more[a] = 1, less[a] = 0;
-                    slopes[a] = at(more) - at(less);
-                }
-                volume += weight * glm::determinant(slopes);
-            }
-    EXPECT_NEAR(momentsOf(12, corners).volume, volume, 1e-12);
+    EXPECT_NEAR(momentsOf(12, corners).volume, tests::trilinearVolume(corners), 1e-12);
 }
 
 TEST(CellMoments, OfSurfacesAndLinesLieInThem) {

@@ -11,6 +11,9 @@
 #include <stdexcept>
 
 #include "tests/support/meshes.h"
+#include "tests/support/trilinear.h"
+#include "tests/support/unstructured.h"
+#include "timeseries/grid/middles.h"
 #include "timeseries/index/sorted_step.h"
 #include "timeseries/together.h"
 
@@ -97,6 +100,38 @@ TEST(Mesh, TurnedOverItStandsForAsMuch) {
     EXPECT_EQ(mirrored.folded(), 0u);
     for (std::uint64_t i = 0; i < mesh.count(); ++i)
         EXPECT_NEAR(volume(mirrored, i), volume(mesh, i), 1e-12);
+}
+
+// Each of the middles of bricks: sides in the mean of four, and what is between bent faces.
+TEST(Mesh, CellsBetweenCornersThatAreKnownAreTheirOwn) {
+    const auto lattice = placesOf({5, 4, 6}, [](double i, double j, double k) {
+        const glm::dvec3 at = tests::bent(i, j, k);
+        return glm::dvec3(at.x * at.x, at.y, at.z);
+    });
+    const auto cornerAt = [&](std::uint64_t i, std::uint64_t j, std::uint64_t k) {
+        return lattice.at[i + 5 * (j + 4 * k)];
+    };
+    const Mesh mesh(MeshPlaces{.size = {4, 3, 5},
+                               .at = middlesOf(lattice.at, lattice.size),
+                               .corners = {lattice.size, lattice.at}});
+    double all = 0;
+    for (std::uint64_t n = 0; n < mesh.count(); ++n) {
+        const std::uint64_t i = n % 4, j = n / 4 % 3, k = n / 12;
+        std::vector<glm::dvec3> corners;
+        for (const std::uint64_t far : {0u, 1u})
+            for (const auto& [di, dj] : {std::pair(0u, 0u), {1u, 0u}, {1u, 1u}, {0u, 1u}})
+                corners.push_back(cornerAt(i + di, j + dj, k + far));
+        const double expected = tests::trilinearVolume(corners);
+        EXPECT_NEAR(volume(mesh, n), expected, 1e-6 * expected);
+        all += volume(mesh, n);
+        const auto sideOf = [&](std::size_t a, std::size_t b) { return corners[b] - corners[a]; };
+        glm::dmat3 sides((sideOf(0, 1) + sideOf(3, 2) + sideOf(4, 5) + sideOf(7, 6)) / 4.0,
+                         (sideOf(0, 3) + sideOf(1, 2) + sideOf(4, 7) + sideOf(5, 6)) / 4.0,
+                         (sideOf(0, 4) + sideOf(1, 5) + sideOf(2, 6) + sideOf(3, 7)) / 4.0);
+        sides *= std::cbrt(expected / glm::determinant(sides));
+        expectShape(mesh.cell(n), sides, 1e-5);
+    }
+    EXPECT_NEAR(all, 16 * 3 * 5, 1e-4) << "of a box";
 }
 
 // L L^T = J J^T of J = L Q with Q a rotation. Also where L is such that nothing needs to be turned.

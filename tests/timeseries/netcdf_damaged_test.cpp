@@ -44,6 +44,7 @@ std::optional<std::vector<Values>> contents(const Path& path) {
         EXPECT_THAT(error.what(), StartsWith(path.string() + ": "));
         EXPECT_THAT(error.what(), HasSubstr("expected"));
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        EXPECT_THAT(error.what(), testing::Not(HasSubstr("link"))) << "it has none";
         return std::nullopt;
     }
 }

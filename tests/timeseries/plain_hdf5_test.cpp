@@ -150,6 +150,37 @@ TEST(PlainHdf5, WhatHasItsValuesInOtherFilesHasNoSources) {
     }
 }
 
+// netCDF's library then reads nothing of the file, and says "HDF error".
+TEST(PlainHdf5, ALinkToWhatIsNotThereIsNamed) {
+    const auto other =
+        array<float>(H5T_NATIVE_FLOAT, {3, 4, 5}, std::nullopt, std::vector<float>(60, 1));
+    const auto withLink = [](const auto& add) {
+        const auto path = tests::testFolder() / "linked.h5";
+        const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        const hid_t group = H5Gcreate2(file, "g", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        add(group);
+        H5Gclose(group);
+        H5Fclose(file);
+        const std::string told = tests::refusalOf(path), begins = path.string() + ": link ";
+        EXPECT_THAT(told, testing::StartsWith(begins));
+        return told.substr(std::min(begins.size(), told.size()));
+    };
+    const std::string nothing = ": expected something there, but there is nothing";
+    EXPECT_EQ(withLink([](hid_t group) {
+                  H5Lcreate_soft("/nowhere", group, "a", H5P_DEFAULT, H5P_DEFAULT);
+              }),
+              "'g/a', which leads to '/nowhere'" + nothing);
+    const auto external = [](const std::string& file, const char* object) {
+        return [=](hid_t group) {
+            H5Lcreate_external(file.c_str(), object, group, "b", H5P_DEFAULT, H5P_DEFAULT);
+        };
+    };
+    EXPECT_EQ(withLink(external("missing.h5", "/v")),
+              "'g/b', which leads to '/v' of missing.h5" + nothing);
+    EXPECT_EQ(withLink(external(other.string(), "/w")),
+              "'g/b', which leads to '/w' of " + other.string() + nothing);
+}
+
 // A file has no byte of a chunk that nobody wrote; of what is more than memory, it says why.
 TEST(PlainHdf5, ChunksThatWereNotWrittenAreTheirFill) {
     const auto sparse = [](hsize_t side) {

@@ -1,21 +1,11 @@
-// Unstructured grids of VTK files: their pieces, their lists of cells, steps whose cells change,
-// and the volumes that VTK itself finds.
+// Unstructured grids of VTK files: their pieces, their lists of cells, steps whose cells change.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <vtkCell.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkTetra.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
-#include <cmath>
 #include <numeric>
 
 #include "tests/support/read_variables.h"
-#include "tests/support/shared_data.h"
 #include "tests/support/unstructured.h"
 #include "tests/support/vtk_files.h"
 #include "timeseries/readers/reader.h"
@@ -272,36 +262,6 @@ TEST(VtkUnstructured, CellsMayComeAndGoFromStepToStep) {
     EXPECT_TRUE(two.grid->ofOneStep());
     EXPECT_EQ(two.grid->axes()[0].coordinates, one.grid->axes()[0].coordinates) << "all in one box";
     EXPECT_EQ(*again.grid, *one.grid);
-}
-
-// Each cell's, from the tetrahedra that VTK cuts it into. The crushed hexahedra of can.vtu have
-// bent faces: VTK's two cuttings of these differ by 6 %, and the trilinear volume lies between.
-TEST(VtkUnstructured, VolumesAreThoseThatVtkFinds) {
-    const Path path = tests::sharedData("dambreak_amr/dambreak_010.vtu");
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
-    const vtkNew<vtkXMLUnstructuredGridReader> vtk;
-    vtk->SetFileName(path.c_str());
-    vtk->Update();
-    const auto reader = open(path);
-    const Grid& grid = *reader->variables()[0].grid;
-    const Mesh& mesh = *grid.mesh();
-    ASSERT_EQ(mesh.count(), static_cast<std::uint64_t>(vtk->GetOutput()->GetNumberOfCells()));
-    const vtkNew<vtkIdList> ids;
-    const vtkNew<vtkPoints> points;
-    double all = 0;
-    for (vtkIdType cell = 0; cell < vtk->GetOutput()->GetNumberOfCells(); ++cell) {
-        vtk->GetOutput()->GetCell(cell)->Triangulate(0, ids, points);
-        double theirs = 0;
-        for (vtkIdType t = 0; t + 3 < points->GetNumberOfPoints(); t += 4) {
-            std::array<glm::dvec3, 4> p;
-            for (vtkIdType c = 0; c < 4; ++c) points->GetPoint(t + c, &p[std::size_t(c)].x);
-            theirs += std::abs(vtkTetra::ComputeVolume(&p[0].x, &p[1].x, &p[2].x, &p[3].x));
-        }
-        const double ours = tests::volume(mesh, static_cast<std::uint64_t>(cell));
-        ASSERT_NEAR(ours, theirs, 1e-5 * theirs) << cell;
-        all += theirs;
-    }
-    EXPECT_NEAR(volume(grid), all, 1e-6 * all);
 }
 
 }  // namespace

@@ -109,6 +109,9 @@ TEST(Xdmf, AStructuredGridLiesWhereItsPlacesSay) {
         const Grid& cells = *reader->variables()[indexOf(*reader, "c")].grid;
         ASSERT_EQ(cells.count(), 6u);
         EXPECT_EQ(cells.position(1), glm::dvec3(1.75, 1, 1.5));
+        // One layer, as thick as it is.
+        for (std::uint64_t cell = 0; cell < 6; ++cell)
+            EXPECT_NEAR(tests::volume(*cells.mesh(), cell), 1 * 2 * 3, 1e-5);
     }
 }
 

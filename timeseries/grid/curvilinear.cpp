@@ -1,6 +1,7 @@
 #include "timeseries/grid/curvilinear.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -17,9 +18,9 @@ glm::dvec3 perpendicularTo(const glm::dvec3& v) {
     return glm::cross(v, a.y <= a.z ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1));
 }
 
-// Gives the columns along indices of one point this length, across the others, right-handed.
-void thicken(glm::dmat3& cell, const std::array<std::size_t, 3>& size, double thickness) {
-    const auto isThin = [&](int a) { return size[static_cast<std::size_t>(a % 3)] == 1; };
+// Gives the columns along indices without extent this length, across the others, right-handed.
+void thicken(glm::dmat3& cell, const MeshPlaces& places, double thickness) {
+    const auto isThin = [&](int a) { return places.isThin(static_cast<std::size_t>(a % 3)); };
     const auto along = [&](const glm::dvec3& v) {
         const double length = glm::length(v);
         return length > 0 ? v / length * thickness : glm::dvec3(0);
@@ -35,6 +36,10 @@ void thicken(glm::dmat3& cell, const std::array<std::size_t, 3>& size, double th
     }
 }
 
+int thinAxes(const MeshPlaces& places) {
+    return int{places.isThin(0)} + int{places.isThin(1)} + int{places.isThin(2)};
+}
+
 }  // namespace
 
 bool isPlace(const glm::dvec3& at) {
@@ -46,19 +51,19 @@ CurvilinearCells::CurvilinearCells(const MeshPlaces& places)
       rings_(places),
       stride_{1, places.size[0], std::uint64_t{places.size[0]} * places.size[1]},
       firstHeight_(places.levels.size() > 1 ? places.levels[1] - places.levels[0] : 0) {
-    const auto thin = std::ranges::count(places.size, 1u);
+    const int thin = thinAxes(places);
     if (thin > 0) thickness_ = thin == 3 ? 1 : thin == 2 ? meanWidth() : std::sqrt(meanWidth());
 }
 
 // Of a surface's cells the area, of a thread's the length.
 double CurvilinearCells::meanWidth() const {
-    const bool isSurface = std::ranges::count(places_.size, 1u) == 1;
+    const bool isSurface = thinAxes(places_) == 1;
     const auto widthOf = [&](std::size_t row) {
         if (!isPlace(places_.at[row])) return 0.0;
         const glm::dmat3 steps = stepsAt(row);
         glm::dvec3 one(0), other(0);  // the columns that are not 0
         for (int a = 0; a < 3; ++a)
-            if (places_.size[static_cast<std::size_t>(a)] > 1)
+            if (!places_.isThin(static_cast<std::size_t>(a)))
                 (one == glm::dvec3(0) ? one : other) = steps[a];
         return glm::length(isSurface ? glm::cross(one, other) : one);
     };
@@ -93,6 +98,7 @@ glm::dvec3 CurvilinearCells::longestWay() const {
 }
 
 std::uint64_t CurvilinearCells::oneSided() const {
+    if (!places_.corners.at.empty()) return 0;
     const glm::vec<3, std::uint64_t> size(places_.size[0], places_.size[1], places_.size[2]);
     const auto isOneSided = [&](std::uint64_t row) {
         if (!isPlace(places_.at[row])) return false;
@@ -131,6 +137,7 @@ std::optional<glm::dvec3> CurvilinearCells::stepAcrossSeam(std::uint64_t row, st
     constexpr double kOnePlace = 1e-3, kGoesOn = 0.5;  // of a step
     const std::uint64_t stride = stride_[axis], last = places_.size[axis] - 1;
     if (last < 2 || (at > 0 && at < last) || (axis == 2 && !places_.levels.empty())) return {};
+    if (!places_.corners.at.empty()) return {};
     const std::uint64_t first = row - at * stride, end = first + last * stride;
     const glm::dvec3 after = places_.at[first + stride] - places_.at[first];
     const glm::dvec3 before = places_.at[end] - places_.at[end - stride];
@@ -141,9 +148,36 @@ std::optional<glm::dvec3> CurvilinearCells::stepAcrossSeam(std::uint64_t row, st
     return goesOn && apart < kOnePlace * length ? std::optional(step) : std::nullopt;
 }
 
+// Between its corners a cell is trilinear: with u, v and w from -1 to 1, bits 1, 2 and 4 of m, a
+// place is the sum of c[m] times those that are in m. The volume is the integral of the determinant
+// of its slopes, of which only squares leave anything.
+glm::dmat3 CurvilinearCells::sidesAt(const glm::vec<3, std::uint64_t>& at) const {
+    const auto& corners = places_.corners;
+    std::array<glm::dvec3, 7> c{};
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const auto of = [&](int axis) {
+            const bool isFar = corners.size[static_cast<std::size_t>(axis)] > 1;
+            return at[axis] + (isFar ? corner >> axis & 1 : 0);
+        };
+        const glm::dvec3 place =
+            corners.at[of(0) + corners.size[0] * (of(1) + corners.size[1] * of(2))] / 8.0;
+        for (unsigned m = 1; m < c.size(); ++m)
+            c[m] += std::popcount(m & ~corner) % 2 == 0 ? place : -place;
+    }
+    const auto volume = [](const glm::dvec3& u, const glm::dvec3& v, const glm::dvec3& w) {
+        return glm::dot(u, glm::cross(v, w));
+    };
+    const double straight = volume(c[1], c[2], c[4]);
+    const double bent =
+        (volume(c[3], c[2], c[6]) + volume(c[1], c[3], c[5]) + volume(c[5], c[6], c[4])) / 3;
+    const double longer = straight == 0 ? 1 : 1 + bent / straight;
+    return (longer > 0 ? 2 * std::cbrt(longer) : 2) * glm::dmat3(c[1], c[2], c[4]);
+}
+
 glm::dmat3 CurvilinearCells::stepsAt(std::uint64_t row) const {
     const auto& size = places_.size;
     const auto at = indicesOf(row, glm::vec<3, std::uint64_t>(size[0], size[1], size[2]));
+    if (!places_.corners.at.empty()) return sidesAt(at);
     glm::dmat3 steps(0.0);
     for (int a = 0; a < 3; ++a) {
         const auto axis = static_cast<std::size_t>(a);
@@ -166,7 +200,7 @@ CurvilinearCells::Cell CurvilinearCells::operator()(std::uint64_t row) const {
         cell.steps[a] = *acrossSeam;
         ++cell.widened;
     }
-    if (thickness_ > 0) thicken(cell.steps, places_.size, thickness_);
+    if (thickness_ > 0) thicken(cell.steps, places_, thickness_);
     if (rings_.empty()) return cell;
     for (int a = 0; a < 3; ++a) {
         const unsigned wider = std::min(rings_.widening(at, a, glm::length(cell.steps[a])),

@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "timeseries/grid/axis_rings.h"
@@ -23,6 +24,16 @@ struct MeshPlaces {
     std::vector<double> levels = {};
     // After how much each coordinate comes round to itself, as longitude does; 0: never.
     glm::dvec3 period{0};
+    // Of points that are the middles of a file's cells, without levels: the corners of these, in
+    // the same order. One more along each index than points, or one where the cells have no extent
+    // along it.
+    struct Corners {
+        std::array<std::size_t, 3> size{};
+        std::span<const glm::dvec3> at = {};
+    } corners = {};
+    bool isThin(std::size_t axis) const {
+        return corners.at.empty() ? size[axis] == 1 : corners.size[axis] == 1;
+    }
 };
 
 bool isPlace(const glm::dvec3& at);
@@ -39,9 +50,11 @@ class CurvilinearCells {
     explicit CurvilinearCells(const MeshPlaces& places);
     // Columns: the steps along i, j and k that this point of `at` stands for, half the way between
     // its neighbours, or the whole way to the only one that has a place; of columns, on the first
-    // level. An index of one point is as thick as the mean of the cells is wide. On rings about an
-    // axis they are widened (timeseries/grid/axis_rings.h); where a line's last point is its first,
-    // both have the cell about that place, and half of its volume each: it is widened once, too.
+    // level. Between corners that are known: the cell's sides, each in the mean of four, times what
+    // makes their volume the cell's own. An index without extent is as thick as the mean of the
+    // cells is wide. On rings about an axis they are widened (timeseries/grid/axis_rings.h); where
+    // a line's last point is its first, both have the cell about that place, and half of its volume
+    // each: it is widened once, too.
     struct Cell {
         glm::dmat3 steps;
         unsigned widened;
@@ -56,6 +69,7 @@ class CurvilinearCells {
     // The shorter one.
     glm::dvec3 way(std::uint64_t from, std::uint64_t to) const;
     glm::dmat3 stepsAt(std::uint64_t row) const;
+    glm::dmat3 sidesAt(const glm::vec<3, std::uint64_t>& at) const;
     // None where the line does not end where it began, or the point is at neither.
     std::optional<glm::dvec3> stepAcrossSeam(std::uint64_t row, std::size_t axis,
                                              std::uint64_t at) const;

@@ -7,12 +7,6 @@
 
 namespace timeseries {
 
-void StepGrids::add(const Grid& first, const Grid& other) {
-    are = std::max(are, heldAgainst(first, other));
-    least = std::min({least == 0 ? first.count() : least, first.count(), other.count()});
-    most = std::max({most, first.count(), other.count()});
-}
-
 StepGrids::Are heldAgainst(const Grid& first, const Grid& other) {
     using Are = StepGrids::Are;
     if (first == other) return Are::One;

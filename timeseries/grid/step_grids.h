@@ -17,9 +17,6 @@ struct StepGrids {
     Are are = Are::One;
     // Of Own: how many points a step has, where that is known of all; else 0.
     std::uint64_t least = 0, most = 0;
-
-    // One more step's.
-    void add(const Grid& first, const Grid& other);
 };
 
 // What the second is to the first.

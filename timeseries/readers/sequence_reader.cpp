@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -28,21 +29,6 @@ std::optional<std::size_t> placeOf(const Variable& variable, std::span<const Var
     return static_cast<std::size_t>(found - all.begin());
 }
 
-// For an array that no file names: what the files' names begin with, without what numbers them.
-std::string commonName(std::span<const Path> paths) {
-    const std::string first = paths.front().stem().string();
-    std::size_t length = first.size();
-    for (const Path& path : paths) {
-        const std::string other = path.stem().string();
-        const auto end = std::ranges::mismatch(std::string_view(first).substr(0, length), other);
-        length = static_cast<std::size_t>(end.in1 - first.data());
-    }
-    while (length > 0 && (first[length] & 0xC0) == 0x80) --length;  // not within a UTF-8 character
-    const std::string_view common = std::string_view(first).substr(0, length);
-    const std::size_t last = common.find_last_not_of("0123456789 ._-");
-    return last == common.npos ? "values" : std::string(common.substr(0, last + 1));
-}
-
 struct TimesOf {
     double least, most;
     std::size_t file;
@@ -61,8 +47,8 @@ class SequenceReader final : public Reader {
         format_ = first->format();
         variables_.assign(first->variables().begin(), first->variables().end());
         axes_.resize(variables_.size());
-        grids_.resize(variables_.size());
-        for (std::size_t v = 0; v < variables_.size(); ++v) axes_[v].push_back(variables_[v].time);
+        counts_.resize(variables_.size());
+        for (std::size_t v = 0; v < variables_.size(); ++v) take(v, variables_[v]);
         auto glances = glancesAt(glanceAt);
         for (std::size_t f = 1; f < paths_.size(); ++f)
             if (glances[f])
@@ -94,9 +80,7 @@ class SequenceReader final : public Reader {
         return member.reader.sorted(member.variable, member.step);
     }
     StepSources sources(std::size_t variable, std::size_t step) override;
-    StepGrids stepGrids(std::size_t variable) override {
-        return gridsOf_ ? gridsOf_(paths_, *variables_[variable].grid) : grids_[variable];
-    }
+    StepGrids stepGrids(std::size_t variable) override;
     void expectToFit(std::size_t file) override {
         if (isGlanced_[file]) open(file);
     }
@@ -108,6 +92,11 @@ class SequenceReader final : public Reader {
  private:
     using Axes = std::vector<std::shared_ptr<const TimeAxis>>;  // [file]
 
+    struct Counts {
+        std::uint64_t least = std::numeric_limits<std::uint64_t>::max(), most = 0;
+    };
+
+    void take(std::size_t v, const Variable& its);
     void add(std::size_t file, const Reader& reader);
     std::vector<std::optional<Glance>> glancesAt(const GlanceAt& glanceAt) const;
     void compare(std::size_t file, Glance& glance) const;
@@ -138,9 +127,9 @@ class SequenceReader final : public Reader {
     const OpenOne openOne_;
     const GridsOf gridsOf_;  // none: all files were opened
     std::string format_;
-    std::vector<Variable> variables_;               // the first file's, with the times of all
-    std::vector<StepGrids> grids_;                  // [variable]: of the files that were opened
-    std::vector<Axes> axes_;                        // [variable], while opening
+    std::vector<Variable> variables_;  // the first file's, with the times of all
+    std::vector<Counts> counts_;       // [variable]: points of the files that were opened
+    std::vector<Axes> axes_;           // [variable], while opening
     std::vector<std::vector<std::size_t>> begins_;  // [variable][file]: its first step, and the end
     std::vector<bool> hasOwnTimes_;                 // [variable]: the files' own
     std::vector<bool> isGlanced_;                   // [file]: it was not opened with the series
@@ -173,14 +162,35 @@ const Variable& SequenceReader::expectSame(const Variable& expected, std::size_t
     return *found;
 }
 
+void SequenceReader::take(std::size_t v, const Variable& its) {
+    axes_[v].push_back(its.time);
+    counts_[v].least = std::min(counts_[v].least, its.grid->count());
+    counts_[v].most = std::max(counts_[v].most, its.grid->count());
+}
+
 void SequenceReader::add(std::size_t file, const Reader& reader) {
-    for (std::size_t v = 0; v < variables_.size(); ++v) {
-        const Variable& its = expectSame(variables_[v], file, reader);
-        axes_[v].push_back(its.time);
-        grids_[v].add(*variables_[v].grid, *its.grid);
-    }
+    for (std::size_t v = 0; v < variables_.size(); ++v)
+        take(v, expectSame(variables_[v], file, reader));
     for (const Variable& other : reader.variables())
         if (!placeOf(other, variables_)) tellLeftOut(other.name);
+}
+
+// Where all have as many points, the last file tells whether they lie elsewhere, or its own steps
+// do: to hold each file's mesh against the first takes as long as to read some.
+StepGrids SequenceReader::stepGrids(std::size_t v) {
+    if (gridsOf_) return gridsOf_(paths_, *variables_[v].grid);
+    const std::size_t steps = variables_[v].time->points.size();
+    const auto [least, most] = counts_[v];
+    StepGrids grids{.are = StepGrids::Are::Own};
+    if (least == most) {
+        const Member last = memberOf(v, steps - 1);
+        const Grid& its = *last.reader.variables()[last.variable].grid;
+        grids.are = std::max(last.reader.stepGrids(last.variable).are,
+                             heldAgainst(*variables_[v].grid, its));
+    }
+    // Further steps of a file may have more.
+    if (steps == paths_.size()) grids.least = least, grids.most = most;
+    return grids;
 }
 
 // [file], of the first none; each compared. On several threads: a file system may answer several

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <string_view>
 
 #include "timeseries/readers/amrex/amrex_header.h"
 #include "timeseries/readers/file_pattern.h"
@@ -333,6 +334,20 @@ std::optional<std::vector<double>> ascendingNumbers(std::span<const Path> paths)
         if (values.size() > 1 && !(values[values.size() - 2] < values.back())) return std::nullopt;
     }
     return values;
+}
+
+std::string commonName(std::span<const Path> paths) {
+    const std::string first = paths.front().stem().string();
+    std::size_t length = first.size();
+    for (const Path& path : paths) {
+        const std::string other = path.stem().string();
+        const auto end = std::ranges::mismatch(std::string_view(first).substr(0, length), other);
+        length = static_cast<std::size_t>(end.in1 - first.data());
+    }
+    while (length > 0 && (first[length] & 0xC0) == 0x80) --length;  // not within a UTF-8 character
+    const std::string_view common = std::string_view(first).substr(0, length);
+    const std::size_t last = common.find_last_not_of("0123456789 ._-");
+    return last == common.npos ? "values" : std::string(common.substr(0, last + 1));
 }
 
 }  // namespace timeseries

@@ -35,4 +35,7 @@ ExpandedSeries expandSeries(std::span<const std::filesystem::path> named);
 // The number by which names of one folder differ, where it is one and ascends with the paths.
 std::optional<std::vector<double>> ascendingNumbers(std::span<const std::filesystem::path> paths);
 
+// What their names begin with, without what numbers them; "values" where that is nothing.
+std::string commonName(std::span<const std::filesystem::path> paths);
+
 }  // namespace timeseries

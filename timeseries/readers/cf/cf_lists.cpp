@@ -68,11 +68,18 @@ bool isTurned(const NcHeader& header, const NcVariable& connectivity, const std:
            second.length >= 2 * mostCorners;
 }
 
+// As UGRID says it; or as SCHISM does, to which faces are elements, and edges sides.
+std::string locationOf(const NcVariable& variable) {
+    std::string location = lower(variable.text("location"));
+    if (location.empty()) location = lower(variable.text("data_horizontal_center"));
+    return location == "elem" ? "face" : location == "side" ? "edge" : location;
+}
+
 std::optional<FoundList> byMesh(const NcHeader& header, const NcVariable& variable,
                                 const Roles& roles) {
     using By = ColumnPlaces::By;
     const NcVariable* const mesh = header.find(variable.text("mesh"), variable.group);
-    const std::string location = lower(variable.text("location"));
+    const std::string location = locationOf(variable);
     if (!mesh || (location != "face" && location != "node" && location != "edge"))
         return std::nullopt;
     const NcVariable* const faces = header.find(mesh->text("face_node_connectivity"), mesh->group);
@@ -224,7 +231,7 @@ bool saysMesh(const NcHeader& header, const NcVariable& variable) {
         return lower(variable.text(attribute)) == "unstructured";
     };
     return (variable.find("mesh") &&
-            (variable.find("location") || variable.find("location_index_set"))) ||
+            (!locationOf(variable).empty() || variable.find("location_index_set"))) ||
            says("grid_type") || says("CDI_grid_type") || isOnMpas(header, variable);
 }
 

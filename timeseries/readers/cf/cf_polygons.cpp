@@ -53,6 +53,40 @@ class OwnCorners {
     UnstructuredGrid grid_;
 };
 
+// The mean of those of its nodes' that lie somewhere, and not at a pole; not finite where none
+// does.
+double longitudeOf(const PlaneCoordinates& nodes, const std::vector<std::uint32_t>& face) {
+    double first = std::numeric_limits<double>::quiet_NaN(), sum = 0;
+    int count = 0;
+    for (const std::uint32_t node : face) {
+        const double x = nodes.x[node], y = nodes.y[node];
+        if (!std::isfinite(x) || !std::isfinite(y) || isPole(y, nodes.turn)) continue;
+        if (count == 0) first = x;
+        sum += unwound(x, y, first, nodes.turn).x;
+        ++count;
+    }
+    return sum / count;
+}
+
+// Longitudes from the least one of any node on, once round: where faces lie across the seam, some
+// before it and some behind, what they are drawn on would be wider than the Earth.
+class OnceRound {
+ public:
+    OnceRound(const PlaneCoordinates& nodes, const NodesOf& faces) : turn_(nodes.turn) {
+        for (const auto& face : faces)
+            for (const std::uint32_t node : face)
+                if (!isPole(nodes.y[node], turn_) && std::isfinite(nodes.x[node]))
+                    least_ = std::min(least_, nodes.x[node]);
+    }
+    double operator()(double x) const {
+        return turn_ > 0 && std::isfinite(least_) ? x - turn_ * std::floor((x - least_) / turn_)
+                                                  : x;
+    }
+
+ private:
+    double turn_, least_ = std::numeric_limits<double>::infinity();
+};
+
 // Of those of its nodes that lie somewhere; nothing when none does.
 std::optional<glm::dvec2> middleOf(const PlaneCoordinates& nodes,
                                    const std::vector<std::uint32_t>& face) {
@@ -116,13 +150,14 @@ PlacedPolygons polygonsAbout(const PlaneCoordinates& centres, const PlaneCoordin
 
 UnstructuredGrid polygonsOfFaces(const PlaneCoordinates& nodes, const NodesOf& faces) {
     OwnCorners polygons(nodes.turn);
+    const OnceRound onceRound(nodes, faces);
     std::vector<glm::dvec2> polygon;
     for (const auto& face : faces) {
         polygon.clear();
         for (const std::uint32_t node : face)
             if (std::isfinite(nodes.x[node]) && std::isfinite(nodes.y[node]))
                 polygon.emplace_back(nodes.x[node], nodes.y[node]);
-        polygons.add(std::numeric_limits<double>::quiet_NaN(), polygon);
+        polygons.add(onceRound(longitudeOf(nodes, face)), polygon);
     }
     return polygons.taken();
 }
@@ -164,6 +199,7 @@ UnstructuredGrid polygonsAboutNodes(const PlaneCoordinates& nodes, const NodesOf
 PlacedPolygons polygonsAboutEdges(const PlaneCoordinates& nodes, const NodesOf& faces,
                                   const NodesOf& edges) {
     const auto sides = facesAtSides(faces);
+    const OnceRound onceRound(nodes, edges);
     OwnCorners polygons(nodes.turn);
     PlacedPolygons result;
     std::vector<glm::dvec2> polygon;
@@ -172,8 +208,7 @@ PlacedPolygons polygonsAboutEdges(const PlaneCoordinates& nodes, const NodesOf& 
         glm::dvec3 place(std::numeric_limits<double>::quiet_NaN());
         double reference = place.x;
         if (edge.size() == 2) {
-            const bool fromPole = isPole(nodes.y[edge[0]], nodes.turn);
-            reference = nodes.x[edge[fromPole ? 1 : 0]];
+            reference = onceRound(longitudeOf(nodes, edge));
             const auto end = [&](std::size_t i) {
                 return unwound(nodes.x[edge[i]], nodes.y[edge[i]], reference, nodes.turn);
             };

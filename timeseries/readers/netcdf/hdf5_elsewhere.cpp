@@ -117,7 +117,44 @@ herr_t look(hid_t group, const char* name, const H5L_info_t* link, void* data) {
     return 0;
 }
 
+// What a soft link leads to, or an external one: an object, of a file.
+std::string targetOf(hid_t group, const char* name, const H5L_info_t& link) {
+    std::string text(link.u.val_size + 1, '\0');
+    if (H5Lget_val(group, name, text.data(), link.u.val_size, H5P_DEFAULT) < 0) return "";
+    if (link.type == H5L_TYPE_SOFT) return fmt::format("'{}'", text.c_str());
+    const char *file = nullptr, *object = nullptr;
+    if (H5Lunpack_elink_val(text.data(), link.u.val_size, nullptr, &file, &object) < 0) return "";
+    return fmt::format("'{}' of {}", object, file);
+}
+
+// Ends with the first.
+herr_t findDead(hid_t group, const char* name, const H5L_info_t* link, void* data) {
+    constexpr std::size_t kLongest = 4096;  // of a damaged file it may have any length
+    if ((link->type != H5L_TYPE_SOFT && link->type != H5L_TYPE_EXTERNAL) ||
+        link->u.val_size > kLongest)
+        return 0;
+    const hid_t object = H5Oopen(group, name, H5P_DEFAULT);
+    if (object >= 0) {
+        H5Oclose(object);
+        return 0;
+    }
+    const std::string target = targetOf(group, name, *link);
+    if (target.empty()) return 0;
+    *static_cast<std::string*>(data) = fmt::format("'{}', which leads to {}", name, target);
+    return 1;
+}
+
 }  // namespace
+
+std::string deadHdf5Link(const std::filesystem::path& path) {
+    if (H5Fis_hdf5(path.c_str()) <= 0) return "";
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (file < 0) return "";
+    std::string dead;
+    H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, findDead, &dead);
+    H5Fclose(file);
+    return dead;
+}
 
 Hdf5Elsewhere hdf5Elsewhere(const std::filesystem::path& path, const LookAtHdf5& also) {
     if (H5Fis_hdf5(path.c_str()) <= 0) return {};

@@ -23,4 +23,8 @@ struct Hdf5Elsewhere {
 using LookAtHdf5 = std::function<void(std::int64_t dataset, const char* name)>;
 Hdf5Elsewhere hdf5Elsewhere(const std::filesystem::path& path, const LookAtHdf5& also);
 
+// A link to something that is not there, "'a', which leads to '/b'", for which netCDF's library
+// reads nothing of the file; "" where there is none. REQUIRES: as above.
+std::string deadHdf5Link(const std::filesystem::path& path);
+
 }  // namespace timeseries

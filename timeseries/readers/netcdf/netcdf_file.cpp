@@ -144,7 +144,10 @@ void NetcdfFile::open() {
     }
     const int status = nc_open(named.c_str(), NC_NOWRITE, &id_);
     if (file >= 0) ::close(file);
-    check(status, "", "a whole netCDF file, whose links lead somewhere");
+    if (status != NC_NOERR)
+        if (const std::string link = deadHdf5Link(path_); !link.empty())
+            fail("link " + link, "expected something there, but there is nothing");
+    check(status, "", "a whole netCDF file");
     try {
         // While it shares what is read of it.
         elsewhere_ = hdf5Elsewhere(path_, [&](std::int64_t dataset, const char* name) {

@@ -19,11 +19,14 @@ VtkGrid structuredGridOf(const VtkHeader& header, VtkPlace place) {
     const auto size = header.size(place);
     result.layout = {{size[0], size[1], size[2]}, {1, size[0], size[0] * size[1]}};
     try {
-        const auto mesh = std::make_shared<const Mesh>(
-            MeshPlaces{.size = result.layout.size,
-                       .at = place == VtkPlace::Points
-                                 ? header.places
-                                 : middlesOf(header.places, header.size(VtkPlace::Points))});
+        MeshPlaces places{.size = result.layout.size, .at = {}};
+        if (place == VtkPlace::Points) {
+            places.at = header.places;
+        } else {
+            places.corners = {header.size(VtkPlace::Points), header.places};
+            places.at = middlesOf(header.places, places.corners.size);
+        }
+        const auto mesh = std::make_shared<const Mesh>(places);
         result.notes = notesOf(*mesh);
         result.grid = std::make_shared<Grid>(spaceAxes(), mesh);
     } catch (const std::invalid_argument& flaw) {

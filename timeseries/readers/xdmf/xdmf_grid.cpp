@@ -309,11 +309,16 @@ std::shared_ptr<const Grid> XdmfGrid::made(bool atPoints) {
             spaceAxes(), std::make_shared<const Mesh>(atPoints ? meshOfPoints(cells_, *shapes_)
                                                                : meshOfCells(cells_, *shapes_)));
     }
-    if (shape_.hasPlaces)
-        return std::make_shared<const Grid>(
-            spaceAxes(), std::make_shared<const Mesh>(MeshPlaces{
-                             .size = sizeAt(atPoints),
-                             .at = atPoints ? places_ : middlesOf(places_, shape_.size)}));
+    if (shape_.hasPlaces) {
+        MeshPlaces places{.size = sizeAt(atPoints), .at = {}};
+        if (atPoints) {
+            places.at = places_;
+        } else {
+            places.corners = {shape_.size, places_};
+            places.at = middlesOf(places_, shape_.size);
+        }
+        return std::make_shared<const Grid>(spaceAxes(), std::make_shared<const Mesh>(places));
+    }
     constexpr std::array kAxes{"x", "y", "z"};
     std::array<Axis, 3> axes;
     for (std::size_t d = 0; d < 3; ++d)
