@@ -44,7 +44,7 @@ void ExplorerOptions::addTo(CLI::App& app) {
         ->group("Layers");
     app.add_option("--hide", hidden_, "A layer that is not drawn; 1 is the first")
         ->allow_extra_args(false)
-        ->check(CLI::Range(std::size_t{1}, render::kMaxLayers))
+        ->check(wholeBetween(1, render::kMaxLayers))
         ->group("Layers");
     app.add_option("--name-axis", axisNames_, "x=NAME, y=NAME or z=NAME: what an axis is called")
         ->allow_extra_args(false)

@@ -74,7 +74,7 @@ double rounded(double value, double middle, double scale) {
     const double size = std::min(scale, 10 * std::abs(value - middle));
     if (!(size > 0) || !std::isfinite(size)) return value;
     const int decimals = 2 - static_cast<int>(std::floor(std::log10(size)));
-    if (decimals < -15 || decimals > 300) return value;
+    if (decimals > 300) return value;
     const auto isInside = [&](double v) { return value > middle ? v <= value : v >= value; };
     const double nearest = toDecimals(value, decimals);
     if (isInside(nearest)) return nearest;

@@ -3,8 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/choices/choice_text.h"
 
@@ -33,6 +39,28 @@ inline CLI::Validator between(double lo, double hi) {
                        : fmt::format("'{}' is not a number from {} to {}", text, lo, hi);
         },
         hi == kMostFinite ? fmt::format("at least {}", lo) : fmt::format("{} to {}", lo, hi));
+}
+
+inline CLI::Validator wholeBetween(std::size_t lo, std::size_t hi) {
+    return CLI::Validator(
+        [=](std::string& text) -> std::string {
+            std::size_t value = 0;
+            const char* const end = text.data() + text.size();
+            const auto [past, error] = std::from_chars(text.data(), end, value);
+            if (error == std::errc{} && past == end && value >= lo && value <= hi) return {};
+            return fmt::format("'{}' is not a whole number from {} to {}", text, lo, hi);
+        },
+        fmt::format("{} to {}", lo, hi));
+}
+
+inline CLI::Validator oneOf(std::vector<std::string> words) {
+    const std::string known = fmt::format("{}", fmt::join(words, ", "));
+    return CLI::Validator(
+        [words = std::move(words), known](std::string& text) -> std::string {
+            if (std::ranges::find(words, text) != words.end()) return {};
+            return fmt::format("'{}' is not one of {}", text, known);
+        },
+        known);
 }
 
 inline CLI::Validator notEmpty() {

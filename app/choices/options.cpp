@@ -14,6 +14,7 @@
 #include "app/choices/choices.h"
 #include "app/choices/explorer_options.h"
 #include "app/choices/option_checks.h"
+#include "app/choices/parse_error.h"
 #include "render/image/picture_file.h"
 
 namespace app {
@@ -63,12 +64,12 @@ struct DrawnByText {
 
 void addDrawnBy(CLI::App& app, DrawnByText& into, std::vector<std::string> splatters) {
     app.add_option("--device", into.device, "any (default), gpu or cpu")
-        ->check(CLI::IsMember({"any", "gpu", "cpu"}));
+        ->check(oneOf({"any", "gpu", "cpu"}));
     const bool exact = std::ranges::find(splatters, "exact") != splatters.end();
     app.add_option("--splatter", into.splatter,
                    fmt::format("Who sums splats: any (default: gl on a GPU, else cpu), {}",
                                exact ? "gl, cpu, or exact: in double, slowly" : "gl or cpu"))
-        ->check(CLI::IsMember(std::move(splatters)));
+        ->check(oneOf(std::move(splatters)));
 }
 
 DrawnBy drawnBy(const DrawnByText& text) {
@@ -92,7 +93,7 @@ struct OutputText {
 void addOutput(CLI::App& app, OutputText& into) {
     app.add_option("--channel", into.channels, "A further EXR channel: opticalDepth, splatCount")
         ->allow_extra_args(false)
-        ->check(CLI::IsMember({"opticalDepth", "splatCount"}));
+        ->check(oneOf({"opticalDepth", "splatCount"}));
     app.add_flag("--portable", into.portable,
                  "The picture's session keeps no absolute path: for pictures that are published");
     app.add_flag("--progress", into.progress, "Print 'picture I of N' after each picture");
@@ -153,7 +154,7 @@ void addIndex(CLI::App& app, IndexText& into) {
                    "A step counted from 0, A:B, A:B:S for every S-th, or all (the default)");
     app.add_option("--jobs", into.jobs,
                    "Steps that are sorted at a time, each in memory; 1 by default")
-        ->check(CLI::Range(1, 64));
+        ->check(wholeBetween(1, 64));
     app.add_flag("--beside", into.beside,
                  "Into a folder beside the files, isochron-index, instead of the cache");
     app.add_flag("--check", into.check,
@@ -184,12 +185,12 @@ struct MeasureText {
 void addMeasure(CLI::App& app, MeasureText& into) {
     app.add_option("--views", into.views,
                    "From how many sides: the view chosen, and others turned about it; 3 by default")
-        ->check(CLI::Range(1, 64));
+        ->check(wholeBetween(1, 64));
     app.add_option("--frames", into.frames, "Timed of each view; 5 by default")
-        ->check(CLI::Range(3, 1000));
+        ->check(wholeBetween(3, 1000));
     app.add_option("--rays", into.rays,
                    "The truth is the mean of so many rays across and down a pixel; 5 by default")
-        ->check(CLI::Range(1, 32));
+        ->check(wholeBetween(1, 32));
     app.add_option("--modes", into.modes,
                    "Ways to draw, by the names that the table has, separated by commas; all by "
                    "default")
@@ -231,7 +232,7 @@ void addDisplay(CLI::App& app, DisplayText& into) {
     app.add_option("--display", into.display,
                    "auto (default: a headset where one answers, else a window), desktop, headset "
                    "(or nothing), or headless, which draws a picture into -o")
-        ->check(CLI::IsMember({"auto", "desktop", "headset", "headless"}));
+        ->check(oneOf({"auto", "desktop", "headset", "headless"}));
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr, with --display headless");
 }
 
@@ -332,12 +333,12 @@ Command parse(std::span<const char* const> arguments) {
     addIndex(*indexApp, indexText);
     std::string cacheText = "list";
     cacheApp->add_option("ACTION", cacheText, "list (the default) or clear")
-        ->check(CLI::IsMember({"list", "clear"}));
+        ->check(oneOf({"list", "clear"}));
     CommonOptions common;
     for (CLI::App* each : {viewApp, renderApp, measureApp, infoApp, countApp, indexApp, cacheApp}) {
         each->add_option("--threads", common.threads,
                          "At most so many cores; without it, as many as there are, 16 at most")
-            ->check(CLI::Range(1, 1024));
+            ->check(wholeBetween(1, 1024));
         each->add_option("--cache", common.cache,
                          "The folder in which sorted steps are kept, or off; without it the "
                          "user's own")
@@ -377,7 +378,7 @@ Command parse(std::span<const char* const> arguments) {
         return Exit{0, version.what()};
     } catch (const CLI::ParseError& error) {
         if (app.get_subcommands().empty()) return Exit{2, notACommand(arguments.front())};
-        return Exit{2, fmt::format("{} (see isochron --help)", error.what())};
+        return Exit{2, fmt::format("{} (see isochron --help)", parseErrorText(app, error))};
     } catch (const std::invalid_argument& error) {
         return Exit{2, error.what()};
     }

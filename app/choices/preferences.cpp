@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "app/choices/choice_text.h"
+#include "app/choices/path_text.h"
 #include "app/choices/paths.h"
 #include "app/choices/user_files.h"
 #include "app/json_text.h"
@@ -29,24 +30,32 @@ double number(const json& object, const char* key, double lo, double hi) {
     return value.get<double>();
 }
 
+// Whether recentFiles are escaped() texts.
+constexpr const char* kEscaped = "recentFilesEscaped";
+
+bool areUtf8(const Named& named) {
+    return std::ranges::all_of(named, [](const fs::path& path) { return isUtf8(path.string()); });
+}
+
 // One is a text, several are a list of texts.
-std::optional<Named> namedIn(const json& entry) {
+std::optional<Named> namedIn(const json& entry, bool areEscaped) {
     const json list = entry.is_array() ? entry : json::array({entry});
     Named named;
     for (const json& path : list) {
         if (!path.is_string()) return std::nullopt;
-        named.emplace_back(path.get<std::string>());
+        const auto text = path.get<std::string>();
+        named.emplace_back(areEscaped ? unescaped(text) : text);
     }
     if (named.empty()) return std::nullopt;
     return named;
 }
 
-std::vector<Named> recentIn(const json& list) {
+std::vector<Named> recentIn(const json& list, bool areEscaped) {
     const std::invalid_argument refusal("recentFiles is not a list of texts and lists of texts");
     if (!list.is_array()) throw refusal;
     std::vector<Named> recent;
     for (const json& entry : list) {
-        auto named = namedIn(entry);
+        auto named = namedIn(entry, areEscaped);
         if (!named) throw refusal;
         if (recent.size() < Preferences::kRecent && std::ranges::all_of(*named, isThere))
             recent.push_back(std::move(*named));
@@ -107,7 +116,9 @@ json costJson(const render::FramePace::Cost& cost) {
 Preferences fromJson(const json& object) {
     if (!object.is_object()) throw std::invalid_argument("it is not a JSON object");
     Preferences preferences;
-    if (object.contains("recentFiles")) preferences.recent = recentIn(object["recentFiles"]);
+    const bool areEscaped = object.contains(kEscaped) && object[kEscaped] == true;
+    if (object.contains("recentFiles"))
+        preferences.recent = recentIn(object["recentFiles"], areEscaped);
     if (object.contains("uiScale")) preferences.uiScale = number(object, "uiScale", 0.5, 4);
     if (object.contains("frameMilliseconds"))
         preferences.frameMilliseconds = number(object, "frameMilliseconds", 1, 1000);
@@ -168,9 +179,12 @@ void writePreferences(const Preferences& preferences, const fs::path& file) {
              {"moving", kMoving[static_cast<std::size_t>(preferences.moving)]},
              {"movingError", preferences.movingError},
              {"movingRung", rungJson(preferences.movingRung)}};
+    const bool areEscaped = !std::ranges::all_of(preferences.recent, areUtf8);
+    if (areEscaped) out[kEscaped] = true;
     for (const Named& named : preferences.recent) {
         json entry = json::array();
-        for (const fs::path& path : named) entry.push_back(path.string());
+        for (const fs::path& path : named)
+            entry.push_back(areEscaped ? escaped(path.string()) : path.string());
         out["recentFiles"].push_back(named.size() == 1 ? entry.front() : entry);
     }
     if (preferences.uiScale) out["uiScale"] = *preferences.uiScale;

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -14,8 +13,8 @@
 #include "app/choices/choice_text.h"
 #include "app/choices/choices.h"
 #include "app/choices/json_object.h"
+#include "app/choices/path_text.h"
 #include "app/choices/paths.h"
-#include "render/annotate/utf8.h"
 #include "render/image/exr.h"
 #include "render/image/picture_file.h"
 #include "render/image/png.h"
@@ -69,40 +68,6 @@ LayerChoice readStyle(JsonObject& object) {
                              [&](const std::string& m) { layer.model = parseLayerModel(m); });
     object.read<bool>("visible", [&](bool b) { layer.visible = b; });
     return layer;
-}
-
-bool isUtf8(const std::string& text) { return render::wellFormed(text) == text; }
-
-// A path with what is no UTF-8, which JSON cannot hold, as %XX, and each % of its own, too.
-std::string escaped(std::string_view path) {
-    std::string text;
-    while (!path.empty()) {
-        const render::CodePoint first = render::firstPoint(path);
-        if (first.isMalformed() || first.point == U'%')
-            text += fmt::format("%{:02X}", static_cast<unsigned char>(path[0]));
-        else
-            text += path.substr(0, first.length);
-        path.remove_prefix(first.length);
-    }
-    return text;
-}
-
-// And back.
-std::string unescaped(std::string_view text) {
-    std::string path;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        unsigned char byte = static_cast<unsigned char>(text[i]);
-        if (text[i] == '%') {
-            const std::string_view digits = text.substr(i + 1, 2);
-            const auto [end, error] =
-                std::from_chars(digits.data(), digits.data() + digits.size(), byte, 16);
-            if (error != std::errc() || end != digits.data() + 2)
-                throw ChoiceError("has a path with a % that no two hexadecimal digits follow");
-            i += 2;
-        }
-        path += static_cast<char>(byte);
-    }
-    return path;
 }
 
 // The value that a session has for a choice's text.

@@ -36,7 +36,9 @@ using timeseries::SortedStep;
 
 void tellStyle(const Explorer& e, const timeseries::Variable& variable) {
     const auto end = [&](double value) {
-        return render::withMinusSigns(timeseries::toText(shortestIn(variable.type, value)));
+        const std::string exact = timeseries::toText(shortestIn(variable.type, value)),
+                          few = fmt::format("{:.9g}", value);
+        return render::withMinusSigns(few.size() < exact.size() ? few : exact);
     };
     for (const LayerChoice& layer : e.layers) {
         if (!layer.visible) continue;
@@ -45,7 +47,9 @@ void tellStyle(const Explorer& e, const timeseries::Variable& variable) {
             color = colorText(*rgb);
         } else {
             const auto& map = std::get<MapChoice>(*layer.color);
-            color = fmt::format("{} from {} to {}", map.map.name(), end(*map.lo), end(*map.hi));
+            color = *map.lo == *map.hi ? fmt::format("the middle of {}", map.map.name())
+                                       : fmt::format("{} from {} to {}", map.map.name(),
+                                                     end(*map.lo), end(*map.hi));
         }
         const auto& ranges = layer.motion ? layer.motion->animation : layer.ranges;
         say("  {}: {}, opacity {:.2g}\n", rangeLabel(ranges, variable.units), color,

@@ -8,6 +8,7 @@
 
 #include "app/desktop/check_driver.h"
 #include "app/panels/figures.h"
+#include "app/say.h"
 #include "render/gl/debug_output.h"
 
 namespace app::desktop {
@@ -159,7 +160,7 @@ void Desktop::title() {
                            clipped ? " in the clip box" : "");
     }
     if (const auto opening = exploration_.opening()) text += " · opening " + *opening;
-    window_.setTitle(text);
+    window_.setTitle(harmless(text));
 }
 
 void Desktop::sleep() {

@@ -68,7 +68,7 @@ void FileActions::serve(const panels::Requests& requests, panels::Interface& int
                         const std::optional<double>& error) {
     if (!requests.open.empty()) open(requests.open);
     if (requests.save) save(*requests.save, error);
-    if (requests.exportTo) exportTo(*requests.exportTo);
+    if (requests.exportTo) exportTo(requests.exportTo->output, requests.exportTo->size);
     if (requests.cancelExport) cancelExport();
     if (requests.discardLeft) discardLeft();
     for (const panels::Command command : requests.commands) {
@@ -171,13 +171,14 @@ void FileActions::copyCommandLine() {
     });
 }
 
-void FileActions::exportTo(const fs::path& output) {
+void FileActions::exportTo(const fs::path& output, glm::ivec2 size) {
     const auto shown = exploration_.shown();
     if (!shown) return;
     if (export_) return exploration_.tell("One export at a time: cancel the one that runs", true);
     telling(exploration_, [&] {
         exploration_.expectSameFiles();
-        const Explorer animation = animationOf(exploration_.explorer(), shown->dataset);
+        Explorer animation = animationOf(exploration_.explorer(), shown->dataset);
+        animation.size = size;
         export_.emplace(animation, FrameFiles(fs::absolute(output), animation,
                                               stepsOf(shown->dataset, *animation.steps),
                                               shown->dataset.stepCount()));

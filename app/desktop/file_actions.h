@@ -35,7 +35,7 @@ class FileActions {
     // Works the error out where it is not known.
     void screenshot(const std::optional<double>& error);
     void copyCommandLine();
-    void exportTo(const std::filesystem::path& output);
+    void exportTo(const std::filesystem::path& output, glm::ivec2 size);
     void cancelExport();
 
     // What a window's user prefers from now on: a headset's panel is as large as it is.

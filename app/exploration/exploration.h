@@ -54,7 +54,8 @@ class Exploration {
     ~Exploration();
 
     // Starts to open: a member of a series, a folder, a pattern, several files. View and quality
-    // stay; layers become the first choice. REQUIRES: at least one.
+    // stay; layers become the first choice. What is named as what is shown was is read anew, and
+    // all that was chosen stays, where it can. REQUIRES: at least one.
     void open(std::vector<std::filesystem::path> named);
     // Starts to open all that a session says. REQUIRES: it names a file.
     void open(Explorer session);
@@ -130,6 +131,8 @@ class Exploration {
 
     // exploration_opening.cpp
     void openEdited(Explorer next, std::string_view gesture);
+    void openFirst(std::vector<std::filesystem::path> named);
+    void openAgain();
     void begin(Pending wish);
     void fail(std::string why);
     void takeOpened();

@@ -32,13 +32,47 @@ void takeLook(Explorer& e, const Explorer& from) {
     e.size = from.size;
 }
 
+bool samePaths(std::span<const std::filesystem::path> a, std::span<const std::filesystem::path> b) {
+    std::error_code unknown;
+    return std::ranges::equal(a, b, [&](const auto& one, const auto& other) {
+        const auto place = std::filesystem::weakly_canonical(one, unknown);
+        return one == other ||
+               (!place.empty() && place == std::filesystem::weakly_canonical(other, unknown));
+    });
+}
+
+// "Read again: run_01.nc, 31 steps", and how many more or fewer these are.
+std::string readAgainText(const Dataset& before, const Dataset& now) {
+    const std::size_t had = before.stepCount(), has = now.stepCount();
+    std::string text = fmt::format("Read again: {}, {} step{}",
+                                   std::filesystem::path(now.name).filename().string(),
+                                   withCommas(has), has == 1 ? "" : "s");
+    if (has > had) text += fmt::format(", {} more", withCommas(has - had));
+    if (has < had) text += fmt::format(", {} fewer", withCommas(had - has));
+    return text;
+}
+
 }  // namespace
 
 void Exploration::open(std::vector<std::filesystem::path> named) {
     assert(!named.empty());
+    if (open_ && samePaths(named, explorer().files)) return openAgain();
+    openFirst(std::move(named));
+}
+
+void Exploration::openFirst(std::vector<std::filesystem::path> named) {
     Explorer wish;
     wish.files = std::move(named);
     begin({.wish = std::move(wish), .rest = Pending::Rest::LookOfNow});
+}
+
+// What was chosen stays, and so does the step, by its time: files may have come and gone.
+void Exploration::openAgain() {
+    Explorer wish = explorer();
+    const timeseries::TimeAxis& time = *open_->dataset.variable.time;
+    if (wish.steps)
+        wish.stepTime = timeKept(time, std::min(wish.steps->first, time.points.size() - 1));
+    begin({.wish = std::move(wish), .rest = Pending::Rest::Again});
 }
 
 void Exploration::open(Explorer session) {
@@ -76,7 +110,9 @@ void Exploration::begin(Pending wish) {
 std::optional<std::string> Exploration::opening() const {
     if (!pending_) return std::nullopt;
     const Explorer& wish = pending_->wish;
-    if (open_ && wish.files == explorer().files && !wish.variable.empty()) return wish.variable;
+    const bool isOfOneFile = open_ && wish.files == explorer().files;
+    if (isOfOneFile && !wish.variable.empty() && pending_->rest != Pending::Rest::Again)
+        return wish.variable;
     const auto& first = wish.files.front();
     return (first.has_filename() ? first.filename() : first).string();
 }
@@ -84,7 +120,11 @@ std::optional<std::string> Exploration::opening() const {
 void Exploration::cancelOpening() { pending_.reset(); }
 
 void Exploration::fail(std::string why) {
+    const bool again = pending_->rest == Pending::Rest::Again;
+    std::vector<std::filesystem::path> files = std::move(pending_->wish.files);
     pending_.reset();
+    // Other data are there now, perhaps: what was chosen does not fit them.
+    if (again) return openFirst(std::move(files));
     tell(std::move(why), true);
 }
 
@@ -117,7 +157,7 @@ void Exploration::takeOpened() {
     }
     wish.steps = StepChoice{first, first};
     wish.oneTick = false;
-    if (!open_ || wish.files != explorer().files)
+    if (!open_ || wish.files != explorer().files || pending_->rest == Pending::Rest::Again)
         for (const std::string& note : dataset.series.notes) tell(note);
     pending_->opened = std::make_unique<Open>(std::move(dataset), wish, settings_, wake_);
     pending_->opened->steps.want({first});
@@ -150,6 +190,11 @@ Explorer Exploration::restOf(const Pending& pending) const {
             next = explorer();
             next.keep = pending.wish.keep;
             next.axes = pending.wish.axes;
+            break;
+        case Pending::Rest::Again:
+            next = explorer();
+            next.steps = pending.wish.steps;
+            next.play.time = pending.wish.play.time;
     }
     if (pending.travel != 0) {  // as History::undo()
         next.size = explorer().size;
@@ -183,6 +228,7 @@ void Exploration::adopt(LiveSteps::Arrival first) {
     } catch (const std::runtime_error& error) {  // of a sorted step, of which points were read
         return fail(error.what());
     }
+    if (pending_->rest == Pending::Rest::Again) tell(readAgainText(open_->dataset, opened.dataset));
     opened.step = first.step;
     opened.sorted = std::move(first.sorted);
     if (playback_.playing && next.files == explorer().files) playback.play();

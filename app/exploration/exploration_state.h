@@ -46,7 +46,8 @@ struct Exploration::Open {
 
 struct Exploration::Pending {
     Explorer wish;
-    enum class Rest { AsWished, LookOfNow, AllOfNow } rest = Rest::AsWished;  // beside the data
+    // What else than the data is to be shown. Again: all of now, of data that are read anew.
+    enum class Rest { AsWished, LookOfNow, AllOfNow, Again } rest = Rest::AsWished;
     int travel = 0;  // states of the history to go back (-) or forward; 0: a new one
     std::optional<Opening> opening = {};
     std::unique_ptr<Open> opened = {};  // nothing to show yet

@@ -166,9 +166,8 @@ std::size_t stepThen(Dataset& dataset, std::size_t step, const std::string& kept
         if (timeKept(axis, i) == kept) same.push_back(i);
     dataset.series.notes.push_back(
         same.size() == 1
-            ? fmt::format("the session's step {}, {}, is step {} now", step, kept, same[0])
-            : fmt::format("the session's step {} was {}, which no step of these is now", step,
-                          kept));
+            ? fmt::format("step {}, {}, is step {} now", step, kept, same[0])
+            : fmt::format("step {} was {}, which no step of these is now", step, kept));
     return same.size() == 1 ? same[0] : step;
 }
 
@@ -183,9 +182,8 @@ void findStepThen(Dataset& dataset, Explorer& session) {
     const bool isPart = play.first != all.first || play.last != all.last;
     const bool isAnother = step != then || timeKept(*dataset.variable.time, step) != kept;
     if (!isPart || !isAnother) return;
-    dataset.series.notes.push_back(
-        fmt::format("the session's steps {} to {}, which it played, were others: all play now",
-                    play.first, play.last));
+    dataset.series.notes.push_back(fmt::format(
+        "steps {} to {}, which played, were others: all play now", play.first, play.last));
     play.first = all.first;
     play.last = all.last;
 }

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "app/choices/choice_text.h"
 #include "app/choices/paths.h"
 #include "app/exploration/export_job.h"
 #include "render/image/picture_file.h"
@@ -67,9 +68,18 @@ std::string whyNot(const fs::path& file) {
 
 }  // namespace
 
-void FilePanel::ask(For what, const fs::path& path) {
+std::string exportedText(const FrameFiles& frames, const timeseries::CursorSettings& play) {
+    if (frames.size() == 1) return frames.names();
+    const bool otherwise = play.direction == timeseries::Direction::Backward ||
+                           play.ending == timeseries::Ending::PingPong;
+    return fmt::format("{} pictures{}: {}", withCommas(frames.size()),
+                       otherwise ? ", forwards once" : "", frames.names());
+}
+
+void FilePanel::ask(For what, const fs::path& path, glm::ivec2 size) {
     for_ = what;
     typed_ = path.string();
+    size_ = fmt::format("{}x{}", size.x, size.y);
     answeredTo_.clear();
     focus_ = true;
     const fs::path folder = fs::absolute(path.has_parent_path() ? path.parent_path() : ".");
@@ -91,11 +101,11 @@ void FilePanel::list(const fs::path& folder) {
 }
 
 void FilePanel::take(PanelContext& context, const fs::path& path) {
-    const bool again = asked_ && answeredTo_ == path.string();
+    const bool again = asked_ && answeredTo_ == wish(path);
     answer_ = flaw(context, path);
     asked_ = answer_.empty() && *for_ != For::Open;
     if (asked_ && !again) answer_ = warning(context, path);
-    answeredTo_ = path.string();
+    answeredTo_ = wish(path);
     if (!answer_.empty()) return;
     switch (*for_) {
         case For::Open:
@@ -105,7 +115,7 @@ void FilePanel::take(PanelContext& context, const fs::path& path) {
             context.requests.save = path;
             break;
         case For::Export:
-            context.requests.exportTo = path;
+            context.requests.exportTo = {path, parseSize(size_)};
     }
     close();
 }
@@ -117,6 +127,11 @@ std::string FilePanel::flaw(const PanelContext& context, const fs::path& path) c
         return fmt::format("There is no folder {}", path.parent_path().string());
     if (*for_ == For::Save) return whyNot(path);
     if (!render::isPng(path) && !render::isExr(path)) return "Its name ends in .png or in .exr";
+    try {
+        parseSize(size_);
+    } catch (const ChoiceError& error) {
+        return error.what();
+    }
     return context.exploration.shown() ? whyNot(pictures(context, path).front().file) : "";
 }
 
@@ -177,7 +192,10 @@ void FilePanel::draw(PanelContext& context) {
     focus_ = false;
     const bool entered = inputText("##path", "type a path, or choose below", typed_);
     if (ImGui::IsItemActivated()) focus().touch(ImGui::GetID("##path"));
-    drawList(context, {{left, at.min.y + 104 * s}, {right, at.max.y - 60 * s}});
+    const float foot = at.max.y - (*for_ == For::Export ? 104 : 60) * s;  // the list's
+    drawList(context, {{left, at.min.y + 104 * s}, {right, foot}});
+    const bool sized =
+        *for_ == For::Export && drawSize(context, {{left, foot + 8 * s}, {right, foot + 38 * s}});
 
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) close();
     if (!for_) return end();
@@ -200,7 +218,7 @@ void FilePanel::draw(PanelContext& context) {
     const bool pressed =
         for_ &&
         textButton(theme, "Do", {{right - 100 * s, y}, {right, y + 30 * s}}, actionOf(*for_), true);
-    if (for_ && (entered || pressed)) {
+    if (for_ && (entered || sized || pressed)) {
         const fs::path path = meant(typed_, folder_).lexically_normal();
         if (entered && isFolder(path)) {
             list(path);
@@ -214,8 +232,22 @@ void FilePanel::draw(PanelContext& context) {
     end();
 }
 
+bool FilePanel::drawSize(const PanelContext& context, const Rect& at) {
+    const Theme& theme = context.theme;
+    const float s = theme.scale, y = at.centre().y;
+    const Rect field{{at.min.x + 52 * s, at.min.y}, {at.min.x + 172 * s, at.max.y}};
+    text(theme, {at.min.x, y}, "Size", kDim);
+    text(theme, {field.max.x + 10 * s, y}, "pixels", kDim, 0, theme.small);
+    ImGui::SetCursorScreenPos(im(field.min));
+    ImGui::SetNextItemWidth(field.size().x);
+    if (takesText("##size", field)) ImGui::SetKeyboardFocusHere();
+    const bool entered = inputText("##size", "1200x900", size_);
+    if (ImGui::IsItemActivated()) focus().touch(ImGui::GetID("##size"));
+    return entered;
+}
+
 void FilePanel::drawAnswer(const PanelContext& context, const Rect& at) const {
-    const bool answered = !answer_.empty() && answeredTo_ == chosen().string();
+    const bool answered = !answer_.empty() && answeredTo_ == wish(chosen());
     const auto tell = [&](const std::string& line, ImU32 color) {
         text(context.theme, {at.min.x, at.centre().y},
              fitting(*context.theme.text, line, at.size().x), color);
@@ -225,11 +257,7 @@ void FilePanel::drawAnswer(const PanelContext& context, const Rect& at) const {
     const FrameFiles frames = pictures(context, chosen().filename());
     if (const std::string leftOut = frames.leftOut(); !leftOut.empty())
         return tell(leftOut, kError);
-    const glm::ivec2 size = context.exploration.explorer().size;
-    tell(fmt::format("{}{} x {}: {}",
-                     frames.size() > 1 ? withCommas(frames.size()) + " of " : std::string(), size.x,
-                     size.y, frames.names()),
-         kDim);
+    tell(exportedText(frames, context.exploration.explorer().play.time), kDim);
 }
 
 void FilePanel::drawList(PanelContext& context, const Rect& at) {

@@ -2,9 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cfloat>
 
+#include "render/annotate/utf8.h"
+
 namespace app::panels {
+
+Characters::Characters(std::string_view what) {
+    // Most texts are ASCII, and are drawn in every frame.
+    if (std::ranges::any_of(what, [](char c) { return static_cast<unsigned char>(c) >= 0x80; }))
+        what = mended = render::wellFormed(what);
+    begin = what.empty() ? "" : what.data();
+    end = begin + what.size();
+}
 
 glm::vec2 sizeOf(ImFont& font, std::string_view what) {
     const Characters c(what);

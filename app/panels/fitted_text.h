@@ -10,10 +10,15 @@
 
 namespace app::panels {
 
-// A text as ImGui takes one: never null, as an empty view's pointer may be, which ImGui reads.
+// A text as ImGui takes one: never null, as an empty view's pointer may be, which ImGui reads, and
+// well-formed. Of a byte that is no UTF-8, as names of old files have, ImGui would leave out those
+// that follow.
 struct Characters {
-    explicit Characters(std::string_view what)
-        : begin(what.empty() ? "" : what.data()), end(begin + what.size()) {}
+    explicit Characters(std::string_view what);
+    Characters(const Characters&) = delete;
+    Characters& operator=(const Characters&) = delete;
+
+    std::string mended;  // of what is malformed
     const char *begin, *end;
 };
 

@@ -5,6 +5,17 @@
 
 namespace app::panels {
 
-void drawHelp(const PanelContext& context);
+class Help {
+ public:
+    bool isOpen() const { return isOpen_; }
+    void turn() { isOpen_ = !isOpen_; }
+    // Up and down scroll what is higher than the picture; false where the key is another's.
+    bool take(const KeyPress& key);
+    void draw(const PanelContext& context);
+
+ private:
+    bool isOpen_ = false, scrolls_ = false;
+    float moved_ = 0;  // by keys, in lines, since it was drawn
+};
 
 }  // namespace app::panels

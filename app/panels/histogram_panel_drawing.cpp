@@ -85,7 +85,11 @@ void HistogramPanel::drawHistogram(const Drawing& f) const {
     const Rect& at = f.at.histogram;
     f.list.AddRectFilled(im(at.min), im(at.max), kGround);
     const std::uint64_t most = *std::max_element(counts_.begin(), counts_.end());
-    if (most == 0) return;
+    if (most == 0) {
+        if (f.shown.sorted->size() == 0)
+            text(f.context.theme, at.centre(), "no values", kFaint, 0.5f, f.context.theme.small);
+        return;
+    }
     const auto length = [&](std::uint64_t count) {
         return countLength(static_cast<double>(count), static_cast<double>(most), linear_,
                            at.size().x - 4 * f.s);

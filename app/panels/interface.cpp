@@ -116,6 +116,8 @@ void Interface::takeKey(Exploration& exploration, const std::optional<KeyPress>&
     if (ends) Focus::endTyping();
     if (focus_.begin(ends ? std::nullopt : key, typing && !ends)) {
         if (!key->repeated) exploration.endGesture();  // a held key is one gesture, as a drag
+    } else if (key && !typed && help_.take(*key)) {
+        return;
     } else if (key && (ends || !typed)) {
         if (const auto command = commandOf(*key)) requests.commands.push_back(*command);
     }
@@ -136,11 +138,12 @@ void Interface::drawPicture(PanelContext& context, const Surroundings& around) {
         context,
         around.exporting ? exportPlace(picture, s).min.y - 8 * s : messagesBottom(picture, s),
         around.dt);
-    if (help_) drawHelp(context);
+    help_.draw(context);
     // Last: ImGui gives the mouse to the first that lies under it.
     if (shown) {
         if (around.hasPicture) picture_.handle(context, around.outline);
-        hover_.follow(context, help_ || popup_ ? std::nullopt : picture_.pointer(), around.dt);
+        hover_.follow(context, help_.isOpen() || popup_ ? std::nullopt : picture_.pointer(),
+                      around.dt);
         hover_.draw(context);
     }
     endRegion();
@@ -243,7 +246,7 @@ bool Interface::obey(Exploration& exploration, Command command) {
     const std::size_t step = time ? time->step() : 0;
     switch (command) {
         case Command::Help:
-            return help_ = !help_, true;
+            return help_.turn(), true;
         case Command::Close:
             return close(exploration);
         case Command::Headset:
@@ -303,7 +306,8 @@ bool Interface::obey(Exploration& exploration, Command command) {
             files_.ask(FilePanel::For::Save, suggested(exploration, ".session.json"));
             return true;
         case Command::Export:
-            files_.ask(FilePanel::For::Export, suggested(exploration, ".png"));
+            files_.ask(FilePanel::For::Export, suggested(exploration, ".png"),
+                       exploration.explorer().size);
             return true;
         default:
             return false;
@@ -315,8 +319,8 @@ bool Interface::obey(Exploration& exploration, Command command) {
 // What lies on top goes first. Popups and files close themselves.
 bool Interface::close(Exploration& exploration) {
     if (popup_) return true;
-    if (help_)
-        help_ = false;
+    if (help_.isOpen())
+        help_.turn();
     else if (!exploration.messages().empty())
         exploration.forgetMessage(exploration.messages().back().number);
     return true;

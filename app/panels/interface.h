@@ -9,6 +9,7 @@
 #include "app/panels/animation_page.h"
 #include "app/panels/file_panel.h"
 #include "app/panels/focus.h"
+#include "app/panels/help.h"
 #include "app/panels/histogram_panel.h"
 #include "app/panels/hover_tip.h"
 #include "app/panels/layers_panel.h"
@@ -84,7 +85,7 @@ class Interface {
     Messages messages_;
     FilePanel files_;
     std::size_t layerRows_ = 0;  // that have room; new ones get theirs once the histogram is free
-    bool help_ = false;
+    Help help_;
     bool popup_ = false;  // one, or the files, was open as the frame began
 };
 

@@ -29,7 +29,8 @@ void amountText(PanelContext& context, const Rect& at, std::size_t row) {
     const std::string amount = withCommas(count) + (counts->inClipBox ? " in the clip box"
                                                     : count == 1      ? " point"
                                                                       : " points");
-    const std::string share = "  ·  " + percentText(count, counts->total);
+    const std::string percent = percentText(count, counts->total),
+                      share = percent.empty() ? "" : "  ·  " + percent;
     ImFont& font = *context.theme.small;
     const bool fits = widthOf(font, amount + share) <= at.size().x;
     text(context.theme, {at.min.x, at.centre().y}, fits ? amount + share : amount, kDim, 0, &font);

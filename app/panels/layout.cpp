@@ -147,13 +147,16 @@ Rect exportPlace(const Rect& picture, float scale) {
     return crisp(box(picture.min.x + margin, bottom - 32 * scale, picture.max.x - margin, bottom));
 }
 
-HelpLayout helpLayout(const Rect& picture, float scale, std::size_t lines, std::size_t groups) {
-    const float wanted =
-        56 + static_cast<float>(lines) * kHelpLine + static_cast<float>(groups) * kHelpGroup;
-    const float s = std::min(scale, (picture.size().y - 24 * scale) / wanted);
-    const float width = std::min(620 * scale, picture.size().x - 24 * scale);
-    const glm::vec2 half(0.5f * width, 0.5f * wanted * s);
-    return {{glm::floor(picture.centre() - half), glm::floor(picture.centre() + half)}, s};
+HelpLayout helpLayout(const Rect& picture, float scale, std::size_t lines, std::size_t groups,
+                      std::size_t more) {
+    const float wanted = 56 + static_cast<float>(lines) * kHelpLine +
+                         static_cast<float>(groups) * kHelpGroup +
+                         static_cast<float>(more) * kHelpMore;
+    constexpr float kLeast = 0.85f;  // that can still be read
+    const glm::vec2 room = picture.size() - 24 * scale;
+    const float s = std::clamp(room.y / wanted, kLeast * scale, scale), height = wanted * s;
+    const glm::vec2 half = 0.5f * glm::min(glm::vec2(620 * scale, height), room);
+    return {{glm::floor(picture.centre() - half), glm::floor(picture.centre() + half)}, s, height};
 }
 
 RecoveryOfferLayout recoveryOfferLayout(const Rect& picture, float scale, glm::vec2 legend) {

@@ -93,13 +93,17 @@ float messagesBottom(const Rect& picture, float scale);
 Rect exportPlace(const Rect& picture, float scale);
 
 // The card of all keys over the picture, so many lines in groups. `scale` is its own: all of it,
-// type too, is drawn smaller where the picture is low, so that no line lies over another.
+// type too, is drawn a little smaller where the picture is low; where that is not enough, what it
+// holds is higher than it is, and scrolls.
 struct HelpLayout {
     Rect whole;
     float scale = 1;
+    float height = 0;  // of what it holds
 };
-constexpr float kHelpLine = 23, kHelpGroup = 14;
-HelpLayout helpLayout(const Rect& picture, float scale, std::size_t lines, std::size_t groups);
+constexpr float kHelpLine = 23, kHelpGroup = 14, kHelpMore = 17;
+// `more`: lines that go on with the one before, where the picture is narrow.
+HelpLayout helpLayout(const Rect& picture, float scale, std::size_t lines, std::size_t groups,
+                      std::size_t more = 0);
 
 // Over the picture: a session that broke off, while other data are shown. Where it has no room
 // beside the picture's legend, which takes so much of its upper left corner, it lies below that.

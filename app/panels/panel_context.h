@@ -60,7 +60,11 @@ struct Requests {
     std::vector<Command> commands;
     std::vector<std::filesystem::path> open;
     std::optional<std::filesystem::path> save;
-    std::optional<std::filesystem::path> exportTo;
+    struct Export {
+        std::filesystem::path output;
+        glm::ivec2 size{0};  // of its pictures
+    };
+    std::optional<Export> exportTo;
     bool cancelExport = false;
     bool discardLeft = false;        // the session that broke off and is offered
     std::optional<glm::vec2> probe;  // where to read, in pixels of the picture, y down

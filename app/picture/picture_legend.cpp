@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/choices/choice_text.h"
+#include "app/choices/decimals.h"
 #include "app/picture/clip_counts.h"
 #include "app/picture/fitted_map.h"
 #include "app/picture/picture.h"
@@ -120,12 +121,24 @@ bool sweepsBeyond(const timeseries::SweepSettings& sweep, const RangeSet& kept) 
     return !(timeseries::unionOf(both) == kept);
 }
 
+// What a map without a width, such as one that was chosen for a field of one value, or of none,
+// colours alike.
+std::string oneColorText(const timeseries::SortedStep& step, timeseries::ValueType type) {
+    if (step.size() == 0) return "no values";
+    const timeseries::Number least = step.value(0);
+    if (timeseries::compare(least, step.value(step.size() - 1)) != 0) return "all values alike";
+    const auto* number = std::get_if<double>(&least);
+    return "all " +
+           render::withMinusSigns(timeseries::toText(number ? shortestIn(type, *number) : least));
+}
+
 // A colour bar's ends come from what was chosen alone, not from the step: they stand still while
 // time and sweep play, and an export, which sees one step at a time, has the same. An open end of a
 // range is the map's, which was taken from the data when the layer was made; of a map that begins
 // below these for its dark end, where they begin, or where the step's do if that is lower.
 void tellBar(render::LegendLayer& told, const LayerChoice& layer, const Extent& map,
-             const std::optional<Extent>& data, const timeseries::SortedStep& step) {
+             const std::optional<Extent>& data, const timeseries::SortedStep& step,
+             timeseries::ValueType type) {
     const RangeSet& ranges = layer.motion ? layer.motion->animation : layer.ranges;
     double low = map.lo;
     if (const auto begin = darkMapsData(map, ranges, step))
@@ -146,6 +159,8 @@ void tellBar(render::LegendLayer& told, const LayerChoice& layer, const Extent& 
     }
     if (told.shown.empty()) told.shown.emplace_back(map.lo, map.hi);
     told.openBelow = told.openBelow && told.shown.front().first <= map.lo;
+    if (map.lo == map.hi && told.openBelow && told.openAbove)
+        told.ofOneColor = oneColorText(step, type);
 }
 
 }  // namespace
@@ -170,7 +185,8 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
         render::LegendLayer& told = legend.layers.emplace_back(
             render::LegendLayer{scene.layers[k].style, std::move(range), amountOf[k]});
         if (const auto* byValue = std::get_if<render::ByValue>(&told.style.color))
-            tellBar(told, layer, {byValue->lo, byValue->hi}, extentOf(e, scene.step), scene.step);
+            tellBar(told, layer, {byValue->lo, byValue->hi}, extentOf(e, scene.step), scene.step,
+                    variable.type);
     };
     for (const LayerChoice& layer : e.layers) {
         if (!layer.visible) continue;

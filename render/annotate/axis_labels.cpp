@@ -41,7 +41,7 @@ class Labelling {
                 stretch.outward = -stretch.outward;
                 return isLong(page_, stretch) && consider(stretch);
             });
-        if (!best) return;
+        if (!best || isTooShort(*best)) return;
         for (const glm::dvec3& at : best->places)
             places_.takeTick(at, best->outward * tickLength(page_.style));
         for (const auto& number : best->numbers)
@@ -50,11 +50,8 @@ class Labelling {
     }
 
     void name(AxisLabels& shown) {
-        const auto along = stretches(page_, shown.edge.axis);
-        const auto own = std::ranges::find_if(
-            along, [&](const Stretch& stretch) { return stretch.edge.side == shown.edge.side; });
-        if (own == along.end() || own->pixels() < page_.line()) return;
-        if (isSeenEndOn(shown.edge.axis)) return;
+        const auto own = stretchOf(shown);
+        if (!own || isSeenEndOn(shown.edge.axis)) return;
         const auto others = stretchesBut(shown.edge.axis);
         for (const std::vector<Words>& names : namesOf(shown.edge.axis))
             for (const glm::dvec2& side : {own->outward, -own->outward})
@@ -65,14 +62,24 @@ class Labelling {
     std::vector<AxisLabels>& axes() { return axes_; }
 
  private:
+    std::optional<Stretch> stretchOf(const AxisLabels& shown) const {
+        for (const Stretch& stretch : stretches(page_, shown.edge.axis))
+            if (stretch.edge.side == shown.edge.side) return stretch;
+        return std::nullopt;
+    }
+    // No name has room along it, without which a number says nothing.
+    bool isTooShort(const AxisLabels& shown) const {
+        const auto own = stretchOf(shown);
+        return !own || own->pixels() < page_.line();
+    }
     // Through the box, from outside: the axis' edges lie among what others are labelled beside.
     bool isSeenEndOn(int axis) const {
         const auto within = glm::lessThanEqual(glm::abs(page_.midEye), page_.placed.boxHalf());
         return !within[axis] && within[(axis + 1) % 3] && within[(axis + 2) % 3];
     }
 
-    // The name, ever shorter, with its unit, without which numbers mean nothing; then the unit
-    // alone.
+    // The name, ever shorter while it can be read, with its unit, without which numbers mean
+    // nothing; then the unit alone.
     std::array<std::vector<Words>, 2> namesOf(int index) const {
         const timeseries::Axis& axis = page_.grid.axes()[static_cast<std::size_t>(index)];
         std::string name = axis.name, unit = shownUnit(axis.units);
@@ -86,7 +93,7 @@ class Labelling {
                 names.push_back(wordsOf(page_, std::move(text)));
         };
         add(name);
-        for (const double lines : {12.0, 7.0, 4.0, 2.0})
+        for (const double lines : {12.0, 7.0, 4.0})
             add(shortened(page_.font, page_.style, name, static_cast<float>(lines * page_.line())));
         std::vector<Words> unitAlone;
         if (!unit.empty()) unitAlone.push_back(wordsOf(page_, unit));

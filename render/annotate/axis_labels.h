@@ -9,7 +9,8 @@
 // place. A name lies along the edge whose numbers it is of, nearer to it than to any other axis'
 // edges and off their numbers: beyond its own or between them; where there is no room for all of it
 // shortened, with its unit all the same, then on the box; else its unit alone, or nowhere. An axis
-// that is seen end-on through the box has none.
+// that is seen end-on through the box has none. One that is no longer than a line of text is high,
+// as depth is where it is drawn true beside degrees, is not labelled.
 #pragma once
 
 #include <optional>

@@ -71,8 +71,19 @@ void framed(FlatMesh& mesh, glm::vec2 from, glm::vec2 to) {
 
 }  // namespace
 
+namespace {
+
+// The lower number; of one value alone, which is at both ends of the bar, with what either says.
+std::string leastText(const ColorBar& bar, const std::string& number) {
+    const bool isPoint = !(bar.hi() > bar.lo());
+    return (isPoint && bar.below.empty() ? bar.above : bar.below) + number;
+}
+
+}  // namespace
+
 std::string spanText(const ColorBar& bar) {
-    std::string words = bar.below + numberText(bar, bar.lo());
+    if (!bar.words.empty()) return bar.words;
+    std::string words = leastText(bar, numberText(bar, bar.lo()));
     if (bar.hi() > bar.lo()) words += " \u2013 " + bar.above + numberText(bar, bar.hi());
     return words;
 }
@@ -107,7 +118,8 @@ class Numbers {
         : mesh_(mesh), font_(font), style_(style), from_(from), width_(width) {}
 
     void ends(const ColorBar& bar) {
-        const std::string least = numberText(bar, bar.lo()), lo = bar.below + least;
+        if (!bar.words.empty()) return write(bar.words, from_.x);
+        const std::string least = numberText(bar, bar.lo()), lo = leastText(bar, least);
         write(lo, from_.x);
         left_ = from_.x + widthOf(lo);
         right_ = from_.x + width_;

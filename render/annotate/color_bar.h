@@ -18,6 +18,7 @@ struct ColorBar {
     ByValue style;
     std::vector<std::pair<double, double>> parts;  // ascending, apart; one or more
     std::string below, above;                      // before the numbers of its ends
+    std::string words = {};                        // in place of numbers, where there are any
 
     double lo() const { return parts.front().first; }
     double hi() const { return parts.back().second; }

@@ -221,7 +221,7 @@ class Writer {
     static ColorBar barOf(const LegendLayer& layer) {
         const auto& style = std::get<ByValue>(layer.style.color);
         ColorBar bar{style, layer.shown, layer.openBelow ? "\u2264 " : "",
-                     layer.openAbove ? "\u2265 " : ""};
+                     layer.openAbove ? "\u2265 " : "", layer.ofOneColor};
         if (bar.parts.empty()) bar.parts.emplace_back(style.lo, style.hi);
         return bar;
     }

@@ -174,10 +174,10 @@ TEST(StepThen, IsFoundByItsTimeInASeriesThatHasOthersBefore) {
     EXPECT_EQ(then({0, 1.5, 1.75, 2.125}, 1), std::pair(std::size_t{1}, Notes{}))
         << "however many digits its neighbours have";
     EXPECT_EQ(then({1.5, 2}, 1),
-              std::pair(std::size_t{0}, Notes{"the session's step 1, time 1.5 s, is step 0 now"}));
+              std::pair(std::size_t{0}, Notes{"step 1, time 1.5 s, is step 0 now"}));
     EXPECT_EQ(then({-2, -1, 0, 1.5}, 1),
-              std::pair(std::size_t{3}, Notes{"the session's step 1, time 1.5 s, is step 3 now"}));
-    const Notes gone{"the session's step 1 was time 1.5 s, which no step of these is now"};
+              std::pair(std::size_t{3}, Notes{"step 1, time 1.5 s, is step 3 now"}));
+    const Notes gone{"step 1 was time 1.5 s, which no step of these is now"};
     EXPECT_EQ(then({0, 2}, 1), std::pair(std::size_t{1}, gone));
     EXPECT_EQ(then({0}, 1), std::pair(std::size_t{1}, gone));
     EXPECT_EQ(then({1.5, 0, 1.5}, 1), std::pair(std::size_t{1}, gone)) << "which of the two?";

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <random>
@@ -280,6 +282,18 @@ TEST(FirstChoice, BoundsAreShort) {
                   5000, seed)));
         const std::string bound = timeseries::toText(layer.ranges.ranges().front().lo.value);
         EXPECT_LE(bound.size(), 5u) << bound;
+    }
+}
+
+TEST(FirstChoice, BoundsHaveAsFewDigitsWhateverTheScale) {
+    for (const double scale : {1e-290, 1e-20, 1.0, 1e15, 1e17, 1e37, 1e100, 1e305}) {
+        const LayerChoice layer = choiceFor(stepOf(drawn([&](auto& r) {
+            return scale * (3 + 4 * std::exponential_distribution<double>(1)(r));
+        })));
+        const double bound = timeseries::toDouble(layer.ranges.ranges().front().lo.value);
+        char threeDigits[32];
+        std::snprintf(threeDigits, sizeof threeDigits, "%.2e", bound);
+        EXPECT_EQ(bound, std::strtod(threeDigits, nullptr)) << threeDigits;
     }
 }
 

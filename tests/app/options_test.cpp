@@ -131,6 +131,25 @@ TEST(Options, WrongCommandLinesExitWithTwo) {
     refused({"info", "a.nc", "count", "a.nc", "--range", "0:1"});
 }
 
+// In words about what was typed, not about what a parser required and received.
+TEST(Options, WrongCommandLinesAreToldInSentences) {
+    const std::string help = " (see isochron --help)";
+    EXPECT_EQ(renderRefused({"--size"}), "--size has no value" + help);
+    EXPECT_EQ(renderRefused({"--size", "1x1", "--size", "2x2", "--size", "3x3"}),
+              "--size is given 3 times, where one is expected" + help);
+    EXPECT_EQ(renderRefused({"--bogus", "3"}), "there is no option --bogus" + help);
+    EXPECT_EQ(refused({"render", "a.nc", "--outptu", "o.png"}),
+              "there is no option --outptu" + help)
+        << "which is why --output is not there";
+    EXPECT_EQ(refused({"render", "a.nc"}), "--output is required" + help);
+    EXPECT_EQ(refused({"cache", "list", "clear"}), "'clear' is not expected" + help);
+    EXPECT_EQ(refused({"cache", "shrink"}), "ACTION: 'shrink' is not one of list, clear" + help);
+    EXPECT_EQ(renderRefused({"--threads", "1.5"}),
+              "--threads: '1.5' is not a whole number from 1 to 1024" + help);
+    EXPECT_EQ(renderRefused({"--splatter", "gpu"}),
+              "--splatter: 'gpu' is not one of any, gl, cpu, exact" + help);
+}
+
 TEST(Options, WhatDoesNothingBesideOthersIsTold) {
     for (const std::vector<std::string>& idle :
          {std::vector<std::string>{"--light", "full", "--model", "points"},

@@ -62,5 +62,25 @@ TEST_F(PictureOfARamp, ABarOfNoLowerEndBeginsWhereTheDataDo) {
     EXPECT_EQ(barOf(-100), std::pair(*map.lo, true));
 }
 
+// A first choice of such a step is a map without a width: no values are below or above its one.
+TEST_F(PictureOfARamp, ABarOfAStepOfOneValueOrOfNoneSaysSo) {
+    const auto stepOf = [](float value, bool isMissing) {
+        return std::make_shared<const SortedStep>(
+            SortedStep::build({tests::cube(10), std::vector<float>(1000, value),
+                               std::vector<bool>(isMissing ? 1000 : 0, true)}));
+    };
+    const auto none = stepOf(0, true), constant = stepOf(0.1f, false), below = stepOf(-5, false);
+    about_.type = timeseries::ValueType::F32;
+    const auto barOf = [&](const auto& chosenOf, const auto& shown) {
+        const Explorer e = resolved({}, {{1, chosenOf}});
+        return makePicture(e, about_, 1, *shown, placed_).legend.layers.at(0).ofOneColor;
+    };
+    EXPECT_EQ(barOf(none, none), "no values");
+    EXPECT_EQ(barOf(constant, constant), "all 0.1") << "as a float32";
+    EXPECT_EQ(barOf(constant, below), "all \u22125");
+    EXPECT_EQ(barOf(constant, step_), "all values alike") << "each has the map's middle colour";
+    EXPECT_EQ(barOf(step_, constant), "") << "a map that has a width has numbers";
+}
+
 }  // namespace
 }  // namespace app

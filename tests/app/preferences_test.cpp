@@ -48,6 +48,21 @@ TEST(Preferences, RecentFilesAreTheTenNewestOnceEach) {
     EXPECT_THAT(names, ElementsAre("8", "5", "11", "10", "9", "7", "6", "4", "3", "2"));
 }
 
+// JSON holds UTF-8 alone.
+TEST(Preferences, RecentFilesOfLatin1AndOfPercentSignsAreFoundAgain) {
+    const auto folder = tests::freshFolder();
+    Preferences preferences;
+    for (const char* name : {"t\xe9l\xe9.nc", "10%.nc", "%E9.nc"}) {
+        tests::writeBytes(folder / name, "");
+        remember(preferences, {folder / name});
+    }
+    ASSERT_EQ(preferences.recent.size(), 3u);
+    writePreferences(preferences, folder / "p.json");
+    EXPECT_EQ(readPreferences(folder / "p.json").preferences.recent, preferences.recent);
+    tests::writeBytes(folder / "p.json", R"({"recentFilesEscaped": true, "recentFiles": ["%x"]})");
+    EXPECT_THAT(readPreferences(folder / "p.json").problem, HasSubstr("%"));
+}
+
 TEST(Preferences, SeveralFilesAreAnotherThingThanTheFirstOfThem) {
     Preferences preferences;
     remember(preferences, {"/a.nc"});

@@ -92,7 +92,7 @@ TEST(FileActions, NothingIsExportedOfFilesThatAreOthersNow) {
     std::filesystem::copy_file(tests::demo(), data);
     const std::string changed =
         data.string() + ": it has changed since it was opened: open it again";
-    fileActions.exportTo(home / "a.png");
+    fileActions.exportTo(home / "a.png", {64, 48});
     EXPECT_FALSE(exporting);
     EXPECT_EQ(lastTold(), changed);
     exploration.forgetMessage(exploration.messages().back().number);

@@ -282,6 +282,35 @@ TEST(Axes, OneSeenEndOnHasNoNameAndTheOthersHaveAll) {
         }
 }
 
+// A number alone would be all that is said of it.
+TEST(Axes, OneShorterThanALineOfTextIsNotLabelled) {
+    const auto flat = [](double height) {
+        return Grid({tests::measuredAxis("x", "m", 0, 1, 5), tests::measuredAxis("y", "m", 0, 1, 5),
+                     tests::measuredAxis("z", "m", 70, 70 + height, 5)});
+    };
+    const glm::ivec2 size(900, 600);
+    const Drawn high(flat(0.3), eyeAt(-60, 25, 3.2), size);
+    EXPECT_TRUE(high.label("z (m)") && high.label("70.2"));
+    const Drawn low(flat(1e-3), eyeAt(-60, 25, 3.2), size);
+    EXPECT_FALSE(low.label("z (m)"));
+    for (const char* number : {"70", "70.0", "70.000", "70.001", "70.0005"})
+        EXPECT_FALSE(low.label(number)) << number;
+    EXPECT_TRUE(low.label("x (m)") && low.label("y (m)"));
+}
+
+// Three letters of "depth" say less than the unit beside the numbers does.
+TEST(Axes, ShortNamesAreToldWholeOrNotAtAll) {
+    std::size_t whole = 0;
+    for (int width = 300; width < 900; width += 10)
+        for (const double azimuth : {-80.0, -60.0, -30.0}) {
+            const Drawn d(ocean(), eyeAt(azimuth, 25, 3.4), {width, 300});
+            whole += d.label("depth (m)").has_value();
+            for (const char* cut : {"d\u2026 (m)", "de\u2026 (m)", "dep\u2026 (m)"})
+                EXPECT_FALSE(d.label(cut)) << cut << ' ' << width << ' ' << azimuth;
+        }
+    EXPECT_GT(whole, 0u);
+}
+
 // On a cube whose names are too wide for the margin beside it, they are cut, not moved.
 TEST(Axes, NamesThatAreTooWideAreShortenedBesideTheirEdge) {
     const std::string name = "height above the reference ellipsoid";

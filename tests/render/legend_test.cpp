@@ -235,6 +235,18 @@ TEST(Legend, AMapOfOneValueShowsItsMiddle) {
     }));
 }
 
+TEST(Legend, ABarOfOneValueSaysWhatLiesBeyondItOrTheWordsThatStandForIt) {
+    const glm::ivec2 size(1024, 1024);
+    const auto told = [&](LegendLayer layer, const char* text) {
+        return find(legendMesh({"", "", {std::move(layer)}, {}}, fontFor(size), size), size, text)
+            .has_value();
+    };
+    using Values = std::vector<std::pair<double, double>>;
+    EXPECT_TRUE(told({byValue(0, 7), "", "", Values{{7, 7}}, false, true}, "\u2265 7"));
+    EXPECT_TRUE(told({byValue(7, 9), "", "", Values{{7, 7}}, true, false}, "\u2264 7"));
+    EXPECT_TRUE(told({byValue(7, 7), "", "", {}, true, true, "all 7"}, "all 7"));
+}
+
 // The colour that dense parts of a picture have, however much it takes to make one.
 TEST(Legend, ASwatchIsFullOfItsLayersColour) {
     const glm::ivec2 size(1024, 1024);

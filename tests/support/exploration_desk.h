@@ -12,19 +12,20 @@ namespace tests {
 
 // An Exploration of worlds by file name, and a front end that sleeps until it is woken.
 struct ExplorationDesk {
-    explicit ExplorationDesk(std::map<std::string, World> worlds = {{"a", {}}},
+    explicit ExplorationDesk(std::map<std::string, World> made = {{"a", {}}},
                              std::uint64_t budgetBytes = std::uint64_t{1} << 30)
-        : exploration({.budgetBytes = budgetBytes,
-                       .wake = [script = script] { script->wake(); },
-                       .openDataset =
-                           [script = script, worlds = std::move(worlds)](
-                               auto named, const std::string& variable) {
-                               const std::string name = named.front().string();
-                               const auto world = worlds.find(name);
-                               if (world == worlds.end())
-                                   throw timeseries::FileError(name + ": cannot be opened");
-                               return scriptedDataset(world->second, script, name, variable);
-                           }}) {}
+        : worlds(std::make_shared<std::map<std::string, World>>(std::move(made))),
+          exploration(
+              {.budgetBytes = budgetBytes,
+               .wake = [script = script] { script->wake(); },
+               .openDataset =
+                   [script = script, worlds = worlds](auto named, const std::string& variable) {
+                       const std::string name = named.front().string();
+                       const auto world = worlds->find(name);
+                       if (world == worlds->end())
+                           throw timeseries::FileError(name + ": cannot be opened");
+                       return scriptedDataset(world->second, script, name, variable);
+                   }}) {}
 
     // Frames in which no time passes, each after something came, until it holds.
     template <typename Condition>
@@ -77,6 +78,8 @@ struct ExplorationDesk {
     }
 
     std::shared_ptr<Script> script = std::make_shared<Script>();
+    // May become others while nothing is being opened.
+    std::shared_ptr<std::map<std::string, World>> worlds;
     app::Exploration exploration;
 };
 

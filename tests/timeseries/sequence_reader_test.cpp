@@ -355,5 +355,27 @@ TEST(NetcdfNumbered, FilesWithoutTimeAreNumberedAsTheirNamesAre) {
     EXPECT_EQ(reader->stepsOf(0, 2)->first, 2u);
 }
 
+// As where a simulation keeps its last files alone.
+TEST(NetcdfNumbered, AFileThatIsGoneIsToldWhenItIsRead) {
+    const Path folder = tests::freshFolder();
+    std::vector<Path> paths;
+    for (int i = 0; i < 9; ++i) {
+        tests::NetcdfBuilder file("a.nc");
+        const int y = file.dimension("y", 2), x = file.dimension("x", 2);
+        file.write(file.variable("v", NC_FLOAT, {y, x}), std::vector<float>(4, 1));
+        paths.push_back(folder / fmt::format("a_{}.nc", i));
+        std::filesystem::rename(file.close(), paths.back());
+    }
+    const auto reader = openReader(paths);
+    std::filesystem::remove(paths[4]);
+    try {
+        reader->read(0, 4);
+        ADD_FAILURE();
+    } catch (const FileError& error) {
+        EXPECT_EQ(error.what(), paths[4].string() + ": expected a file, but there is none");
+    }
+    EXPECT_NO_THROW(reader->read(0, 5));
+}
+
 }  // namespace
 }  // namespace timeseries

@@ -32,7 +32,8 @@ class ExportFiles : public testing::Test {
     // Enter in the field of the path; where to export is asked for then.
     std::optional<std::filesystem::path> enter() {
         press();
-        return pressed_.exportTo;
+        if (!pressed_.exportTo) return std::nullopt;
+        return pressed_.exportTo->output;
     }
 
     const std::filesystem::path folder_ = tests::freshFolder();
@@ -87,6 +88,40 @@ TEST_F(ExportFiles, EndAsPicturesDo) {
     EXPECT_EQ(enter(), std::nullopt);
     desk_->type("world.exr");
     EXPECT_EQ(enter(), folder_ / "world.exr");
+}
+
+// As the window's picture, unless another size is typed below the list.
+TEST_F(ExportFiles, HaveTheSizeThatIsAskedFor) {
+    const glm::ivec2 shown = desk_->exploration.explorer().size;
+    ASSERT_TRUE(enter());
+    EXPECT_EQ(pressed_.exportTo->size, shown);
+    const auto typeSize = [&](const char* size) {
+        desk_->interface.obey(desk_->exploration, Command::Export);
+        desk_->frames(3);
+        const Rect window = desk_->layout().window;  // the panel is 640 x 520 in its middle
+        desk_->click(window.centre() + glm::vec2(-320 + 20 + 112, 260 - 104 + 23));
+        desk_->type(size);
+    };
+    typeSize("641x480");
+    ASSERT_TRUE(enter()) << "in the field of the size, too";
+    EXPECT_EQ(pressed_.exportTo->size, glm::ivec2(641, 480));
+    EXPECT_EQ(desk_->exploration.explorer().size, shown) << "the window's stays";
+    typeSize("641");
+    EXPECT_FALSE(enter());
+    EXPECT_FALSE(enter()) << "asking again does not help";
+}
+
+TEST(ExportedText, SaysWhereStepsPlayOtherwiseThanTheyAreExported) {
+    const FrameFiles one("a.png", {}, {4}, 10), several("a.png", {}, {4, 5, 6}, 10);
+    timeseries::CursorSettings play;
+    EXPECT_EQ(exportedText(one, play), "a.png");
+    EXPECT_EQ(exportedText(several, play), "3 pictures: a_4.png to a_6.png");
+    play.direction = timeseries::Direction::Backward;
+    EXPECT_EQ(exportedText(one, play), "a.png");
+    EXPECT_EQ(exportedText(several, play), "3 pictures, forwards once: a_4.png to a_6.png");
+    play.direction = timeseries::Direction::Forward;
+    play.ending = timeseries::Ending::PingPong;
+    EXPECT_EQ(exportedText(several, play), "3 pictures, forwards once: a_4.png to a_6.png");
 }
 
 TEST_F(ExportFiles, OfAFolderMadeWhileItIsAskedAreAskedAbout) {

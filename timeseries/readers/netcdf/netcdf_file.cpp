@@ -23,6 +23,7 @@
 #include "timeseries/readers/netcdf/classic_layout.h"
 #include "timeseries/readers/netcdf/kept_chunks.h"
 #include "timeseries/readers/netcdf/netcdf_types.h"
+#include "timeseries/readers/ordinary_file.h"
 #include "timeseries/readers/reader.h"
 
 namespace timeseries {
@@ -87,7 +88,10 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& path, Header header) : CfFil
     fileBytes_ = std::filesystem::file_size(path, error);
     std::ifstream file(path, std::ios::binary);
     char first = 0;
-    if (error || !file.get(first)) fail("", "expected a netCDF file, but it cannot be read");
+    if (error || !file.get(first)) {
+        expectFile(path);  // of a series that is being written, one may be gone
+        fail("", "expected a netCDF file, but it cannot be read");
+    }
     file.seekg(0);
     if (first == 'C')
         checkClassicLayout(path, file, fileBytes_);
