@@ -164,6 +164,15 @@ glm::dvec3 Globe::at(const glm::dvec3& place) const {
     return radius(place.z) * (turn_ * directionsOf(Angle(place.x), Angle(place.y))[2]);
 }
 
+glm::dvec3 Globe::placeOf(const glm::dvec3& at) const {
+    const double r = glm::length(at), middle = 0.5 * (lo_.x + hi_.x);
+    const glm::dvec3 up = glm::transpose(turn_) * at / r;
+    const double longitude = std::atan2(up.y, up.x) / kPerDegree;
+    return {longitude - kTurn * std::round((longitude - middle) / kTurn),
+            std::atan2(up.z, std::hypot(up.x, up.y)) / kPerDegree,
+            surface_ + (perUnit_ != 0 ? (r - 1) / perUnit_ : 0)};
+}
+
 glm::dmat3 Globe::waysAt(const glm::dvec3& place) const {
     const auto [east, north, up] = directionsAt(place);
     const double r = radius(place.z) * kPerDegree;

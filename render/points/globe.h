@@ -54,6 +54,9 @@ class Globe {
 
     // `place`: longitude and latitude in degrees, and the third coordinate as the file has it.
     glm::dvec3 at(const glm::dvec3& place) const;
+    // The way back: a longitude within half a turn of the field's middle. On a surface without
+    // levels the third coordinate is the surface's. REQUIRES: not the Earth's middle.
+    glm::dvec3 placeOf(const glm::dvec3& at) const;
     struct Directions {
         glm::dvec3 east, north, up;
     };
