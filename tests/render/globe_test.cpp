@@ -328,6 +328,22 @@ TEST(Globe, LinesEndAtTheHorizon) {
     EXPECT_NEAR(area / (kPi * seen * seen), 1, 0.01);
 }
 
+// Of fields turned to the front alike, the one with the Earth's seam in its middle has no more.
+TEST(Globe, AMeridianHasOneLabel) {
+    const auto labelsOf = [](double west) {
+        const auto grid = gridOf(east(west, west + 140, 36), north(-40, 40, 9), levels(3));
+        const PlacedPoints placed(*grid, {}, Map::Globe);
+        const glm::ivec2 size(900, 900);
+        const glm::dvec3 eye = 4.0 * placed.globe()->directionsAt({west + 70, 0, 0}).up;
+        return axesMeshes(*grid, placed, tests::lookFrom(eye, size, 0.5), {eye},
+                          tests::fontFor(size))
+            .labels.covers()
+            .size();
+    };
+    EXPECT_GT(labelsOf(-70), 2u);
+    EXPECT_EQ(labelsOf(110), labelsOf(-70));
+}
+
 TEST(Globe, DegreesAreCalledAsOnMaps) {
     EXPECT_EQ(latitudeText(30), "30° N");
     EXPECT_EQ(latitudeText(-7.5), "7.5° S");
