@@ -297,7 +297,7 @@ std::size_t addLayer(Explorer& explorer, RangeSet ranges, const SortedStep& step
     };
     LayerChoice layer;
     layer.color = *std::ranges::find_if_not(kLayerColors, isTaken);
-    layer.opacity = opacityFor(step.count(step.keptPart(ranges)));
+    layer.opacity = opacityFor(step.count(step.keptPart(ranges)), step.grid());
     layer.ranges = std::move(ranges);
     explorer.layers.push_back(std::move(layer));
     explorer.noLayers = false;

@@ -172,6 +172,13 @@ double opacityFor(std::uint64_t selectedPoints) {
     return std::clamp(-std::expm1(-kOpticalDepth / thickness), 0.01, 0.9);
 }
 
+double opacityFor(std::uint64_t selectedPoints, const timeseries::Grid& grid) {
+    const bool isSheet = std::ranges::any_of(grid.axes(), [](const timeseries::Axis& axis) {
+        return axis.coordinates.front() == axis.coordinates.back();
+    });
+    return opacityFor(isSheet ? 1 : selectedPoints);
+}
+
 Extent extentOf(const Quantiles& sampled) { return endsOf(finiteSorted(sampled)); }
 
 Extent extentAsideFill(const Quantiles& sampled) {

@@ -21,6 +21,8 @@ LayerChoice firstChoice(const Quantiles& sampled);
 // Opacity at which a lump of so many cells, as thick as wide, is seen through but plainly there:
 // an optical depth of about 4 through its middle.
 double opacityFor(std::uint64_t selectedPoints);
+// Of a grid of one layer it is a sheet, one cell thick however many they are.
+double opacityFor(std::uint64_t selectedPoints, const timeseries::Grid& grid);
 
 // The finite extent of the sampled values; {0, 0} without any.
 struct Extent {

@@ -7,7 +7,7 @@
 namespace app {
 
 std::string globeFlaw(const timeseries::Grid& grid) {
-    if (!render::isGeographic(grid)) {
+    if (!render::isOnEarth(grid)) {
         const auto told = [&](std::size_t axis) {
             const auto& [name, units, coordinates, down] = grid.axes()[axis];
             return units.empty() ? name : fmt::format("{} ({})", name, units);
@@ -17,10 +17,9 @@ std::string globeFlaw(const timeseries::Grid& grid) {
             told(1));
     }
     constexpr double kPole = render::Globe::kPole;
-    if (const auto y = grid.ends(1); y.least < -kPole || y.most > kPole)
+    if (const auto [lo, hi] = render::earthEnds(grid); lo.y < -kPole || hi.y > kPole)
         return fmt::format(
-            "a globe is drawn of latitudes from -90 to 90, not from {:.7g} to {:.7g}", y.least,
-            y.most);
+            "a globe is drawn of latitudes from -90 to 90, not from {:.7g} to {:.7g}", lo.y, hi.y);
     if (grid.count() > render::Globe::kMostPoints)
         return fmt::format("a globe is drawn of at most {} points, not of {}",
                            render::Globe::kMostPoints, grid.count());

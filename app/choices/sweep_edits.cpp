@@ -74,7 +74,7 @@ void startSweep(Explorer& e, const Extent& values, const SortedStep& step, bool 
     }
     setSweep(e, std::move(sweep));
     e.layers.front().color = MapChoice{.map = {}, .lo = values.lo, .hi = values.hi};
-    e.layers.front().opacity = opacityFor(begin.points);
+    e.layers.front().opacity = opacityFor(begin.points, step.grid());
     if (timePlays && e.play.timeMoves) e.play.sweepMoves = false;
     e.play.tick = begin.tick;
 }

@@ -190,6 +190,8 @@ void print(const Variable& v, const timeseries::StepGrids& grids, bool shownFirs
     for (const Axis& axis : v.grid->axes())
         say("           {}\n", axisText(axis, v.grid->mesh() != nullptr));
     if (!v.grid->frame().aligned()) say("           {}\n", frameText(v.grid->frame()));
+    if (const std::string earth = earthText(*v.grid); !earth.empty())
+        say("           on the Earth: {}\n", earth);
     const std::size_t steps = v.time->points.size();
     if (steps == 1) {
         say("  time     1 step: {}\n", timeText(*v.time, 0));

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/picture/range_label.h"
 #include "render/annotate/ticks.h"
+#include "render/points/globe.h"
 #include "timeseries/grid/cell_types.h"
 
 namespace app {
@@ -38,6 +41,25 @@ std::string positionText(const Reading& reading, const Shown& shown, std::size_t
     const auto& mesh = shown.sorted->grid().mesh();
     if (axis > 0 && mesh && !mesh->hasNeighbours()) return at;
     return fmt::format("{}   [{}]", at, reading.index[axis]);
+}
+
+std::optional<glm::dvec2> onEarth(const Reading& reading, const timeseries::Grid& grid) {
+    if (!render::isOnEarth(grid)) return std::nullopt;
+    if (!grid.earth()) return glm::dvec2(reading.position);
+    const glm::dvec2 at = (*grid.earth())[reading.index[0] + grid.size()[0] * reading.index[1]];
+    return std::isnan(at.x) ? std::nullopt : std::optional(at);
+}
+
+std::vector<PlaceLine> placeLines(const Reading& reading, const Shown& shown) {
+    const timeseries::Grid& grid = shown.sorted->grid();
+    std::vector<PlaceLine> lines;
+    for (std::size_t a = 0; a < 3; ++a)
+        lines.push_back({grid.axes()[a].name, positionText(reading, shown, a)});
+    if (const auto at = grid.earth() ? onEarth(reading, grid) : std::nullopt) {
+        lines.push_back({"longitude", withUnit(fmt::format("{:.6g}", at->x), "degrees_east")});
+        lines.push_back({"latitude", withUnit(fmt::format("{:.6g}", at->y), "degrees_north")});
+    }
+    return lines;
 }
 
 std::string cellText(const timeseries::Grid& grid, const std::array<std::size_t, 3>& index) {

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/exploration/exploration.h"
 #include "timeseries/index/number.h"
@@ -30,6 +31,14 @@ std::string valueText(const Reading& reading, const Shown& shown);
 std::string betweenText(const Reading& reading, const Shown& shown);
 // "0.125 m   [37]": along an axis (0 x, 1 y, 2 z), with the index.
 std::string positionText(const Reading& reading, const Shown& shown, std::size_t axis);
+// "lon", "10.5 °E   [37]": a line for each axis, and for longitude and latitude where the file
+// tells these beside its axes.
+struct PlaceLine {
+    std::string name, text;
+};
+std::vector<PlaceLine> placeLines(const Reading& reading, const Shown& shown);
+// Longitude and latitude, where they are known.
+std::optional<glm::dvec2> onEarth(const Reading& reading, const timeseries::Grid& grid);
 // "37, hexahedron", "37, triangle, level 2": which cell a point stands for, where a mesh's values
 // are its cells'; "" elsewhere.
 std::string cellText(const timeseries::Grid& grid, const std::array<std::size_t, 3>& index);

@@ -78,8 +78,18 @@ std::string gridText(const Grid& grid) {
     return fmt::format("{}, {} x {} x {} = {}", kind, n[0], n[1], n[2], points);
 }
 
+std::string earthText(const Grid& grid) {
+    const timeseries::EarthPlaces* const earth = grid.earth().get();
+    if (!earth) return "";
+    return fmt::format("longitudes {:.6g} to {:.6g}, latitudes {:.6g} to {:.6g} degrees",
+                       earth->lo().x, earth->hi().x, earth->lo().y, earth->hi().y);
+}
+
 nlohmann::ordered_json gridJson(const Grid& grid) {
     nlohmann::ordered_json out{{"kind", gridKind(grid)}, {"points", grid.count()}};
+    if (const timeseries::EarthPlaces* const earth = grid.earth().get())
+        out["earth"] = {{"longitudes", {earth->lo().x, earth->hi().x}},
+                        {"latitudes", {earth->lo().y, earth->hi().y}}};
     const Mesh* mesh = grid.mesh().get();
     if (!mesh || mesh->hasNeighbours()) return out;
     const MeshAbout& about = mesh->about();

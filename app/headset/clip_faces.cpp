@@ -5,25 +5,23 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace app::headset {
-namespace {
-
-// The face nearest to a place, by the place's nearest point on each.
-std::optional<Hold> nearestFace(const glm::dvec3& tip, const glm::dmat4& stageFromAxes,
-                                const AxisBox& box, const glm::dvec3& boxHalf) {
-    const glm::dvec3 place(glm::inverse(stageFromAxes) * glm::dvec4(tip, 1));
+// By the place's nearest point on each.
+std::optional<Hold> nearestFace(const glm::dvec3& tip, const glm::dvec3& place, const AxisBox& box,
+                                const glm::bvec3& canMove,
+                                const std::function<glm::dvec3(const glm::dvec3&)>& inStage) {
     std::optional<Hold> nearest;
     double least = kReach;
     for (int axis = 0; axis < 3; ++axis) {
-        if (boxHalf[axis] == 0) continue;
+        if (!canMove[axis]) continue;
         // Where two faces lie in one, the tip takes the one that it would pull away.
         const int before = place[axis] > 0.5 * (box.lo[axis] + box.hi[axis]) ? 1 : -1;
         for (const int side : {before, -before}) {
             glm::dvec3 on = glm::clamp(place, box.lo, box.hi);
             on[axis] = (side < 0 ? box.lo : box.hi)[axis];
-            const double distance =
-                glm::distance(glm::dvec3(stageFromAxes * glm::dvec4(on, 1)), tip);
+            const double distance = glm::distance(inStage(on), tip);
             if (distance >= least) continue;
             least = distance;
             nearest = Hold{{axis, side}, tip};
@@ -31,8 +29,6 @@ std::optional<Hold> nearestFace(const glm::dvec3& tip, const glm::dmat4& stageFr
     }
     return nearest;
 }
-
-}  // namespace
 
 std::optional<Crossing> crossing(const glm::dvec3& from, const glm::dvec3& along,
                                  const AxisBox& box) {
@@ -68,11 +64,16 @@ AxisBox clippedBox(const render::PlacedPoints& placed, const std::optional<ClipB
 
 std::optional<Hold> holdOf(const xr::Pose& aim, const glm::dmat4& stageFromAxes, const AxisBox& box,
                            const glm::dvec3& boxHalf) {
-    if (const auto near = nearestFace(aim.position, stageFromAxes, box, boxHalf)) return near;
     const glm::dmat4 axesFromStage = glm::inverse(stageFromAxes);
+    const glm::dvec3 place(axesFromStage * glm::dvec4(aim.position, 1));
+    const auto inStage = [&](const glm::dvec3& at) {
+        return glm::dvec3(stageFromAxes * glm::dvec4(at, 1));
+    };
+    if (const auto near =
+            nearestFace(aim.position, place, box, glm::notEqual(boxHalf, glm::dvec3(0)), inStage))
+        return near;
     const glm::dvec3 along = aim.orientation * glm::dvec3(0, 0, -1);
-    const auto met = crossing(glm::dvec3(axesFromStage * glm::dvec4(aim.position, 1)),
-                              glm::dmat3(axesFromStage) * along, box);
+    const auto met = crossing(place, glm::dmat3(axesFromStage) * along, box);
     if (!met || met->leaves < 0) return std::nullopt;
     const bool inside = met->enters < 0;
     const Face face = inside ? met->out : met->in;

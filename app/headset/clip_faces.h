@@ -2,6 +2,7 @@
 // however oblique it stands in the room, and which of its faces a hand is at. Pure.
 #pragma once
 
+#include <functional>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -40,6 +41,11 @@ struct Hold {
 // The face nearest to the tip (the aim pose's place), where one is within kReach; else the first
 // that the ray along -z meets, also from inside. Faces across a flat axis cannot be moved.
 inline constexpr double kReach = 0.08;  // metres
+// The first of these alone: `place` is where the tip is among the box's coordinates, which
+// `inStage` leads back from.
+std::optional<Hold> nearestFace(const glm::dvec3& tip, const glm::dvec3& place, const AxisBox& box,
+                                const glm::bvec3& canMove,
+                                const std::function<glm::dvec3(const glm::dvec3&)>& inStage);
 std::optional<Hold> holdOf(const xr::Pose& aim, const glm::dmat4& stageFromAxes, const AxisBox& box,
                            const glm::dvec3& boxHalf);
 

@@ -13,14 +13,15 @@ namespace app::headset {
 
 class ClipHand {
  public:
-    // An edge of the clip box in the world; lit: of a face that is held, or would be.
+    // An edge of the clip box in the world, or a part of it where it is bent; lit: of a face that
+    // is held, or would be.
     struct Edge {
         glm::dvec3 from, to;
         bool lit;
     };
 
     // What a grab with this aim pose would take hold of. Nothing where what is drawn is not of the
-    // grid that is shown.
+    // grid that is shown, nor where the box has no faces (ClipSpace::has).
     static std::optional<Hold> holdAt(const xr::Pose& aim, const Drawn& drawn,
                                       const xr::Placement& placement,
                                       const Exploration& exploration);
@@ -43,7 +44,8 @@ class ClipHand {
     struct Held {
         Face face;
         glm::dvec3 inAim;  // the point taken hold of, in the aim pose
-        double offset;     // of the face from it, along the axis, in axis coordinates
+        double offset;     // of the face from it, along the axis, in the clip space
+        double at;         // where the face was last, likewise
     };
     std::array<std::optional<Held>, 2> held_;
 };

@@ -32,9 +32,8 @@ std::string tipText(const TipProbe::At& tip, const Shown& shown) {
         text += " " + valueText(tip.reading, shown);
     else
         text += tip.value == TipProbe::Value::None ? ": no value" : " \u2026";
-    for (std::size_t a = 0; a < 3; ++a)
-        text +=
-            "\n" + shown.sorted->grid().axes()[a].name + " " + positionText(tip.reading, shown, a);
+    for (const auto& [name, place] : placeLines(tip.reading, shown))
+        text += "\n" + name + " " + place;
     if (!tip.reading.cell.empty()) text += "\ncell " + tip.reading.cell;
     return text + "\n";
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/panels/widgets.h"
@@ -59,9 +60,9 @@ void HoverTip::draw(const PanelContext& context) const {
     const std::string value =
         fmt::format("{}  {}", shown->dataset.variable.name, valueText(*reading_, *shown));
     std::vector<std::string> places, names;
-    for (std::size_t i = 0; i < 3; ++i) {
-        names.push_back(shown->sorted->grid().axes()[i].name);
-        places.push_back(positionText(*reading_, *shown, i));
+    for (auto& [name, place] : placeLines(*reading_, *shown)) {
+        names.push_back(std::move(name));
+        places.push_back(std::move(place));
     }
     if (!reading_->cell.empty()) {
         names.emplace_back("cell");

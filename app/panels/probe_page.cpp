@@ -20,9 +20,10 @@ void ruler(PanelContext& context, Form& form, const Reading& a, const Reading& b
            const timeseries::Grid& grid) {
     const glm::dvec3 apart = b.position - a.position;
     const auto& axes = grid.axes();
-    if (render::isGeographic(grid))
+    const auto from = onEarth(a, grid), to = onEarth(b, grid);
+    if (from && to)
         line(context.theme, form, "Distance",
-             fmt::format("{:.6g} km", kilometresApart(a.position, b.position)));
+             fmt::format("{:.6g} km", kilometresApart({*from, 0}, {*to, 0})));
     else if (axes[0].units == axes[1].units && axes[1].units == axes[2].units)
         line(context.theme, form, "Distance",
              withUnit(fmt::format("{:.6g}", glm::length(apart)), axes[0].units));
@@ -85,8 +86,7 @@ void ProbePage::draw(PanelContext& context, const Rect& at) {
     const Reading& r = second_ ? *second_ : *first_;
     if (r.between) line(context.theme, form, "Seen", betweenText(r, *shown));
     line(context.theme, form, shown->dataset.variable.name, valueText(r, *shown));
-    for (std::size_t i = 0; i < 3; ++i)
-        line(context.theme, form, grid.axes()[i].name, positionText(r, *shown, i));
+    for (const auto& [name, place] : placeLines(r, *shown)) line(context.theme, form, name, place);
     if (!r.cell.empty()) line(context.theme, form, "Cell", r.cell);
     line(context.theme, form, "Time", timeText(*shown->dataset.variable.time, r.step));
     if (const std::string note = timesNote(*first_, second_ ? &*second_ : nullptr, *shown);

@@ -204,8 +204,11 @@ Explorer resolved(const Explorer& explorer, const Steps& sampled) {
         const RangeSet& all = layer.motion ? layer.motion->animation : layer.ranges;
         style(layer, finiteEnds(all, data), place, e.layers.size());
         // A swept window holds about its share of the animation's points.
-        if (!layer.opacity)
-            layer.opacity = opacityFor(mostSelected(all, sampled) / (layer.motion ? 8 : 1));
+        if (!layer.opacity) {
+            const std::uint64_t points = mostSelected(all, sampled) / (layer.motion ? 8 : 1);
+            layer.opacity = sampled.empty() ? opacityFor(points)
+                                            : opacityFor(points, sampled.begin()->second->grid());
+        }
     }
     return e;
 }

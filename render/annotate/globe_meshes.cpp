@@ -137,7 +137,6 @@ class DegreeLabels {
           style_(style) {}
 
     void meridian(double longitude) {
-        if (globe_.isWhole() && longitude >= 180) return;  // the first one is there already
         const double field = globe_.lo().y;
         for (const double latitude : globe_.isWhole() ? std::vector{0.0, 30.0, -30.0, 60.0, -60.0}
                                                       : std::vector{field, globe_.hi().y})
@@ -214,10 +213,15 @@ AxesMeshes globeMeshes(const PlacedPoints& placed, const View& view, const Middl
     const float width = lineWidth(style);
     AxesMeshes meshes;
 
-    const std::vector<MapLine> graticule = graticuleOf(shownPart(globe));
+    const MapPlane part = shownPart(globe);
+    std::vector<MapLine> graticule = graticuleOf(part);
+    // Once round the last meridian is the first.
+    const auto isMeridian = [](const MapLine& line) { return line.front().x == line.back().x; };
+    std::erase_if(graticule, [&](const MapLine& line) {
+        return isMeridian(line) && line.front().x >= part.lo.x + 360;
+    });
     DegreeLabels labels(surface, sights, globe, view.size, font, style,
                         coveredByLegend(legend, view.size));
-    const auto isMeridian = [](const MapLine& line) { return line.front().x == line.back().x; };
     for (const MapLine& line : graticule)
         if (!isMeridian(line) && std::abs(line.front().y) < 90) labels.parallel(line.front().y);
     for (const MapLine& line : graticule)

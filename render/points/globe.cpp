@@ -81,17 +81,31 @@ bool isGeographic(const Grid& grid) {
     return x.most - x.least <= kTurn + 1 && std::max(std::abs(x.least), std::abs(x.most)) <= 720;
 }
 
+bool isOnEarth(const Grid& grid) { return grid.earth() || isGeographic(grid); }
+
+glm::dvec2 onEarth(const Grid& grid, std::uint64_t index) {
+    if (!grid.earth()) return glm::dvec2(grid.position(index));
+    return (*grid.earth())[index % grid.earth()->count()];
+}
+
+EarthEnds earthEnds(const Grid& grid) {
+    if (const auto& earth = grid.earth()) return {earth->lo(), earth->hi()};
+    const auto x = grid.ends(0), y = grid.ends(1);
+    return {{x.least, y.least}, {x.most, y.most}};
+}
+
 bool isDepth(const Axis& axis) { return axis.down && (metresOf(axis) || saysDepth(axis)); }
 
 Globe::Globe(const Grid& grid, std::optional<double> stretch) {
     constexpr double kFitted = 0.1, kFittedShare = 0.5, kDeepest = 0.9, kHighest = 9;
     const Axis& axis = grid.axes()[2];
-    const auto x = grid.ends(0), y = grid.ends(1), z = grid.ends(2);
-    lo_ = {x.least, y.least, z.least};
-    hi_ = {x.most, y.most, z.most};
+    const auto ends = earthEnds(grid);
+    const auto z = grid.ends(2);
+    lo_ = {ends.lo, z.least};
+    hi_ = {ends.hi, z.most};
     const glm::dvec3 middle = 0.5 * (lo_ + hi_);
     if (!isWhole()) {
-        const double tilt = 0.5 * (y.most - y.least) * kPerDegree;
+        const double tilt = 0.5 * (hi_.y - lo_.y) * kPerDegree;
         const glm::dmat3 tilted({1, 0, 0}, {0, std::cos(tilt), std::sin(tilt)},
                                 {0, -std::sin(tilt), std::cos(tilt)});
         turn_ = tilted * glm::transpose(directionsOf(Angle(middle.x), Angle(middle.y)));
@@ -104,8 +118,8 @@ Globe::Globe(const Grid& grid, std::optional<double> stretch) {
     if (z.least == z.most) {
         surface_ = z.least;  // one level is the surface
     } else {
-        const double wide = (x.most - x.least) * std::cos(middle.y * kPerDegree);
-        const double longer = std::max(wide, y.most - y.least) * kPerDegree;
+        const double wide = (hi_.x - lo_.x) * std::cos(middle.y * kPerDegree);
+        const double longer = std::max(wide, hi_.y - lo_.y) * kPerDegree;
         // A column alone has no longer side.
         const double fitted = longer > 0 ? std::min(kFitted, kFittedShare * longer) : kFitted;
         double perUnit = fitted / farthest;
@@ -133,11 +147,9 @@ bool Globe::isSound() const {
 }
 
 bool Globe::shows(const Grid& grid) {
-    if (!isGeographic(grid) || grid.count() > kMostPoints) return false;
-    const auto y = grid.ends(1);
-    const auto x = grid.ends(0);
-    const bool isOnePlace = x.least == x.most && y.least == y.most;
-    return !isOnePlace && y.least >= -kPole && y.most <= kPole && Globe(grid).isSound();
+    if (!isOnEarth(grid) || grid.count() > kMostPoints) return false;
+    const auto [lo, hi] = earthEnds(grid);
+    return lo != hi && lo.y >= -kPole && hi.y <= kPole && Globe(grid).isSound();
 }
 
 Globe::Angle::Angle(double degrees)
@@ -150,6 +162,15 @@ Globe::Directions Globe::directionsAt(const Angle& longitude, const Angle& latit
 
 glm::dvec3 Globe::at(const glm::dvec3& place) const {
     return radius(place.z) * (turn_ * directionsOf(Angle(place.x), Angle(place.y))[2]);
+}
+
+glm::dvec3 Globe::placeOf(const glm::dvec3& at) const {
+    const double r = glm::length(at), middle = 0.5 * (lo_.x + hi_.x);
+    const glm::dvec3 up = glm::transpose(turn_) * at / r;
+    const double longitude = std::atan2(up.y, up.x) / kPerDegree;
+    return {longitude - kTurn * std::round((longitude - middle) / kTurn),
+            std::atan2(up.z, std::hypot(up.x, up.y)) / kPerDegree,
+            surface_ + (perUnit_ != 0 ? (r - 1) / perUnit_ : 0)};
 }
 
 glm::dmat3 Globe::waysAt(const glm::dvec3& place) const {

@@ -20,6 +20,14 @@ inline constexpr double kPerDegree = std::numbers::pi / 180;  // in radians
 // Whether the first two axes are longitude and latitude in degrees (CF 1.10, sections 4.1 and 4.2),
 // at most once round.
 bool isGeographic(const timeseries::Grid& grid);
+// Whether a point's longitude and latitude are known: so, or beside other axes (Grid::earth()).
+bool isOnEarth(const timeseries::Grid& grid);
+// In degrees, as onEarth() tells them. REQUIRES: isOnEarth(grid).
+glm::dvec2 onEarth(const timeseries::Grid& grid, std::uint64_t index);
+struct EarthEnds {
+    glm::dvec2 lo, hi;
+};
+EarthEnds earthEnds(const timeseries::Grid& grid);  // likewise
 // Coordinates that count downwards from the surface of the Earth: lengths, or what says that it is
 // the sea's. The air's pressures and hybrid levels count down to it.
 bool isDepth(const timeseries::Axis& axis);
@@ -38,14 +46,17 @@ class Globe {
     // `stretch`: of lengths how many times as long as on the Earth they are drawn, of other units
     // how many degrees of the surface one of them is. Without it they reach a tenth of the radius,
     // or half of the field's longer side where that is less. In either case no deeper than nine
-    // tenths of the radius, and no higher than nine times as far out. REQUIRES: isGeographic(grid).
+    // tenths of the radius, and no higher than nine times as far out. REQUIRES: isOnEarth(grid).
     explicit Globe(const timeseries::Grid& grid, std::optional<double> stretch = {});
-    // Whether a grid can be drawn so: geographic, between the poles, of so many points at most, of
-    // more than one place, and of heights that are told apart.
+    // Whether a grid can be drawn so: on the Earth, between the poles, of so many points at most,
+    // of more than one place, and of heights that are told apart.
     static bool shows(const timeseries::Grid& grid);
 
-    // `place`: longitude and latitude in degrees, and the third coordinate, as the file has them.
+    // `place`: longitude and latitude in degrees, and the third coordinate as the file has it.
     glm::dvec3 at(const glm::dvec3& place) const;
+    // The way back: a longitude within half a turn of the field's middle. On a surface without
+    // levels the third coordinate is the surface's. REQUIRES: not the Earth's middle.
+    glm::dvec3 placeOf(const glm::dvec3& at) const;
     struct Directions {
         glm::dvec3 east, north, up;
     };

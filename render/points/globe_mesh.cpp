@@ -134,15 +134,18 @@ class UprightCells {
 struct NotWanted {};
 
 // Points with neighbours have the cells that lie between these, wherever they are.
-std::shared_ptr<const Mesh> curvilinear(const Mesh& file, const Globe& globe,
+std::shared_ptr<const Mesh> curvilinear(const Grid& grid, const Globe& globe,
                                         const std::atomic<bool>& wanted) {
-    timeseries::MeshPlaces places{.size = file.size(), .at = {}};
-    places.at.resize(file.count());
-    timeseries::inParts(file.count(), timeseries::threadsFor(file.count(), 1 << 14),
-                        [&](std::size_t first, std::size_t last) {
-                            for (std::size_t i = first; i < last && wanted; ++i)
-                                places.at[i] = globe.at(file.position(i));
-                        });
+    timeseries::MeshPlaces places{.size = grid.size(), .at = {}};
+    places.at.resize(grid.count());
+    timeseries::inParts(
+        grid.count(), timeseries::threadsFor(grid.count(), 1 << 14),
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last && wanted; ++i) {
+                const glm::dvec3 own = grid.position(i);
+                places.at[i] = globe.at(grid.earth() ? glm::dvec3(onEarth(grid, i), own.z) : own);
+            }
+        });
     if (!wanted) throw NotWanted();
     return std::make_shared<const Mesh>(places);
 }
@@ -166,13 +169,14 @@ std::shared_ptr<const Mesh> Globe::meshOf(const Grid& grid, const std::atomic<bo
         const Box bounds = box();
         const std::vector between{bounds.lo, bounds.hi};
         const Mesh* const file = grid.mesh().get();
+        if (grid.earth() || (file && file->hasNeighbours()))
+            return curvilinear(grid, *this, wanted);
         if (file == nullptr) {
             const UprightCells cells(grid, *this);
             const auto point = [&](std::uint64_t i) { return goOn(), cells(i); };
             return std::make_shared<const Mesh>(grid.size(), between,
                                                 glm::dvec3(cells.longestWay()), point);
         }
-        if (file->hasNeighbours()) return curvilinear(*file, *this, wanted);
         const auto point = [&](std::uint64_t i) { return goOn(), onGlobe(*file, *this, i); };
         auto mesh = std::make_shared<Mesh>(file->count(), between, file->spread(), point);
         mesh->setSolids(file->solids());

@@ -278,7 +278,7 @@ TEST(AddLayer, TakesTheNextFreeColourAndAnOpacityForItsPoints) {
     ASSERT_EQ(e.layers.size(), 3u);
     EXPECT_TRUE(e.layers[0] == before.layers[0]) << "coloured by value stays so";
     EXPECT_EQ(std::get<glm::dvec3>(*e.layers[2].color), kLayerColors[0]);
-    EXPECT_EQ(e.layers[2].opacity, opacityFor(100));
+    EXPECT_EQ(e.layers[2].opacity, opacityFor(100, step.grid()));
     EXPECT_EQ(e.layers[2].ranges, RangeSet::parse("100:199"));
     addLayer(e, RangeSet::parse("5"), step);
     EXPECT_EQ(std::get<glm::dvec3>(*e.layers[3].color), kLayerColors[2]);
@@ -320,7 +320,7 @@ TEST(AddLayer, CountsWhatOfItWasKept) {
         timeseries::SortedStep::build({grid, std::move(values), {}}, RangeSet::parse("500:max"));
     Explorer e;
     addLayer(e, RangeSet::parse("400:599"), step);
-    EXPECT_EQ(e.layers[0].opacity, opacityFor(100));
+    EXPECT_EQ(e.layers[0].opacity, opacityFor(100, step.grid()));
 }
 
 TEST(RemoveLayer, TheLastOneLeavesNoneUntilOneIsAdded) {

@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/measured_axis.h"
 #include "tests/support/scenes.h"
 
 namespace app {
@@ -298,6 +299,7 @@ TEST(FirstChoice, BoundsHaveAsFewDigitsWhateverTheScale) {
 }
 
 TEST(OpacityFor, FallsAsTheLumpGrowsAndStaysSeen) {
+    const auto cube = tests::cube(3);
     double last = 1;
     for (std::uint64_t points = 1; points < (std::uint64_t{1} << 40); points *= 2) {
         const double opacity = opacityFor(points);
@@ -308,7 +310,21 @@ TEST(OpacityFor, FallsAsTheLumpGrowsAndStaysSeen) {
     }
     EXPECT_EQ(opacityFor(0), opacityFor(1));
     // An optical depth of 4 through cbrt(n) cells: 1 - (1 - a)^cbrt(n) = 1 - exp(-4).
-    EXPECT_NEAR(std::pow(1 - opacityFor(27000), 30), std::exp(-4), 1e-12);
+    EXPECT_NEAR(std::pow(1 - opacityFor(27000, *cube), 30), std::exp(-4), 1e-12);
+}
+
+// However many points it has, one cell is all that is seen through.
+TEST(OpacityFor, IsThatOfOneCellOnASheet) {
+    const auto measured = [](int count) {
+        return tests::measuredAxis("x", "m", 0, count - 1, count);
+    };
+    for (int flat = 0; flat < 3; ++flat) {
+        std::array axes{measured(40), measured(40), measured(40)};
+        axes[static_cast<std::size_t>(flat)] = measured(1);
+        const timeseries::Grid sheet(axes);
+        EXPECT_EQ(opacityFor(1000, sheet), opacityFor(1)) << flat;
+        EXPECT_EQ(opacityFor(1000, sheet), 0.9) << "1 - exp(-4), but seen through";
+    }
 }
 
 TEST(ExtentOf, IsTheFiniteOneOfAllSteps) {

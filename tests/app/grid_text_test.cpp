@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/meshes.h"
+#include "tests/support/scenes.h"
 #include "tests/support/unstructured.h"
 #include "timeseries/grid/scattered.h"
 
@@ -85,6 +86,17 @@ TEST(GridText, PointsAloneAreScattered) {
 
 TEST(GridText, AlongIndicesThereAreSizes) {
     EXPECT_EQ(gridText(*tests::twisted()), "curvilinear, 9 x 8 x 7 = 504 points");
+}
+
+TEST(GridText, PlacesOnTheEarthAreToldByTheirEnds) {
+    const auto grid = tests::cube(2);
+    EXPECT_EQ(earthText(*grid), "");
+    EXPECT_FALSE(gridJson(*grid).contains("earth"));
+    const timeseries::Grid there = grid->withEarth(std::make_shared<const timeseries::EarthPlaces>(
+        std::vector<glm::dvec2>{{10, 50}, {-20.25, 40.5}, {30, 60}, {1e20, 0}}));
+    EXPECT_EQ(earthText(there), "longitudes -20.25 to 30, latitudes 40.5 to 60 degrees");
+    EXPECT_EQ(gridJson(there)["earth"].dump(),
+              R"({"longitudes":[-20.25,30.0],"latitudes":[40.5,60.0]})");
 }
 
 }  // namespace

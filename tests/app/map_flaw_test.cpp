@@ -36,5 +36,16 @@ TEST(GlobeFlaw, SaysWhatTheAxesAreInstead) {
               "a globe is drawn of at most 67108864 points, not of 201326592");
 }
 
+TEST(GlobeFlaw, IsNoneOfOtherAxesWhoseLongitudesAndLatitudesAreTold) {
+    const Grid grid({measuredAxis("x", "m", 0, 9, 2), measuredAxis("y", "m", 0, 9, 2),
+                     measuredAxis("depth", "m", 0, 10, 3, true)});
+    const auto told = [&](const std::vector<glm::dvec2>& columns) {
+        return globeFlaw(grid.withEarth(std::make_shared<const timeseries::EarthPlaces>(columns)));
+    };
+    EXPECT_EQ(told({{1, 2}, {3, 2}, {1, 4}, {3, 4}}), "");
+    EXPECT_EQ(told({{1, 2}, {1, 2}, {1, 2}, {1, 2}}),
+              "a globe is drawn of more than one place, and of heights that are told apart");
+}
+
 }  // namespace
 }  // namespace app

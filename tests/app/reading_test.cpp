@@ -57,6 +57,29 @@ TEST(ReadingText, APlaceWithoutNeighboursHasOneIndex) {
     EXPECT_EQ(positionText(reading, world.shown(), 2), "0.25 m");
 }
 
+// As 2 x 2 x 2 points whose columns stand elsewhere.
+TEST(ReadingText, APlaceBesideOtherAxesHasItsLongitudeAndLatitudeToo) {
+    tests::ShownSteps world(2);
+    Reading reading;
+    reading.index = {1, 0, 1};
+    reading.position = {1, 0, 1};
+    EXPECT_EQ(placeLines(reading, world.shown()).size(), 3u);
+    EXPECT_FALSE(onEarth(reading, world.steps[0]->grid()));
+    const auto earth = std::make_shared<const timeseries::EarthPlaces>(
+        std::vector<glm::dvec2>{{10, 50}, {-20.25, 40.5}, {30, 60}, {1e20, 0}});
+    const auto grid = std::make_shared<const timeseries::Grid>(tests::cube(2)->withEarth(earth));
+    world.steps[0] = std::make_shared<const timeseries::SortedStep>(
+        timeseries::SortedStep::build({grid, std::vector<float>(8, 1.0f), {}}));
+    const auto lines = placeLines(reading, world.shown());
+    ASSERT_EQ(lines.size(), 5u);
+    EXPECT_EQ(lines[2].text, positionText(reading, world.shown(), 2));
+    EXPECT_EQ(lines[3].name + " " + lines[3].text, "longitude -20.25 \u00b0E");
+    EXPECT_EQ(lines[4].name + " " + lines[4].text, "latitude 40.5 \u00b0N");
+    EXPECT_EQ(onEarth(reading, *grid), glm::dvec2(-20.25, 40.5));
+    reading.index = {1, 1, 0};
+    EXPECT_EQ(placeLines(reading, world.shown()).size(), 3u) << "no place";
+}
+
 TEST(ReadingText, ACellHasItsNumberInTheFileAndItsKind) {
     const auto at = [](double i, double j, double k) { return glm::dvec3(i, j, k); };
     timeseries::UnstructuredGrid cells = tests::bricks({3, 2, 2}, tests::Cut::Hexahedra, at);

@@ -165,6 +165,21 @@ TEST(Globe, OfOnePlaceOrOfHeightsThatAreNotToldApartThereIsNone) {
         }
 }
 
+TEST(Globe, APlaceIsFoundFromWhereItLies) {
+    for (const auto& [x, y, z] : {std::tuple(east(0, 350, 36), north(-80, 80, 17), levels(3)),
+                                  {east(160, 230, 8), north(30, 60, 4), levels(3)}}) {
+        const Globe globe(*gridOf(x, y, z), 3.0);
+        for (const double longitude : {x.coordinates[0], x.coordinates[3] + 1, x.coordinates[7]})
+            for (const double latitude : {-89.0, 0.0, 50.0})
+                for (const double third : {-1.0, 0.0, 1.5}) {
+                    const glm::dvec3 place(longitude, latitude, third);
+                    EXPECT_LT(glm::distance(globe.placeOf(globe.at(place)), place), 1e-9);
+                }
+    }
+    const Globe flat(*gridOf(east(0, 9, 10), north(0, 9, 10), levels(1)));
+    EXPECT_EQ(flat.placeOf(1.25 * flat.at({3, 4, 0})).z, 0);
+}
+
 // Whole spheres are filled exactly, with points on the poles or without, and where the first and
 // the last longitude are one; regions by sin b (a2 - a1).
 TEST(Globe, CellsFillTheShellsThatTheyStandFor) {
@@ -311,6 +326,22 @@ TEST(Globe, LinesEndAtTheHorizon) {
     EXPECT_GT(farthest, std::sqrt(distance * distance - surface * surface) - 0.05);
     const double seen = ball / std::sqrt(distance * distance - ball * ball) / 0.3 * 200;
     EXPECT_NEAR(area / (kPi * seen * seen), 1, 0.01);
+}
+
+// Of fields turned to the front alike, the one with the Earth's seam in its middle has no more.
+TEST(Globe, AMeridianHasOneLabel) {
+    const auto labelsOf = [](double west) {
+        const auto grid = gridOf(east(west, west + 140, 36), north(-40, 40, 9), levels(3));
+        const PlacedPoints placed(*grid, {}, Map::Globe);
+        const glm::ivec2 size(900, 900);
+        const glm::dvec3 eye = 4.0 * placed.globe()->directionsAt({west + 70, 0, 0}).up;
+        return axesMeshes(*grid, placed, tests::lookFrom(eye, size, 0.5), {eye},
+                          tests::fontFor(size))
+            .labels.covers()
+            .size();
+    };
+    EXPECT_GT(labelsOf(-70), 2u);
+    EXPECT_EQ(labelsOf(110), labelsOf(-70));
 }
 
 TEST(Globe, DegreesAreCalledAsOnMaps) {

@@ -15,7 +15,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using tests::NetcdfBuilder;
 using namespace timeseries::netcdf_axes;
 
@@ -55,8 +54,11 @@ TEST(NetcdfLongitudes, OfTwoDimensionsAreToldUnlessMeasuredAxesExist) {
         "finite";  // nobody has written them
     EXPECT_THAT(notesOfCurvilinear(""), ElementsAre(note));
     EXPECT_THAT(notesOfCurvilinear("1"), ElementsAre(note)) << "cell numbers place nothing";
-    EXPECT_THAT(notesOfCurvilinear("degrees"), IsEmpty()) << "a rotated pole";
-    EXPECT_THAT(notesOfCurvilinear("km"), IsEmpty()) << "a map projection";
+    const std::string noGlobe =
+        "no globe by its 2-D longitudes and latitudes: none of them is a longitude and latitude in "
+        "degrees";
+    EXPECT_THAT(notesOfCurvilinear("degrees"), ElementsAre(noGlobe)) << "a rotated pole";
+    EXPECT_THAT(notesOfCurvilinear("km"), ElementsAre(noGlobe)) << "a map projection";
 }
 
 // lon(j, i) and lat(j, i), and what spans other dimensions, or more than one in time.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -132,6 +133,9 @@ std::array<Axis, 3> spaceAxes() {
 std::shared_ptr<const Grid> gridOfStep(const std::shared_ptr<const Grid>& series,
                                        const std::shared_ptr<const Grid>& step) {
     if (series == step || *series == *step) return series;
+    // What the series knows of its columns holds for all of its steps.
+    if (step->earth() != series->earth() && step->size() == series->size())
+        return gridOfStep(series, std::make_shared<const Grid>(step->withEarth(series->earth())));
     if (!series->mesh() || !step->mesh()) return nullptr;
     // Cells that name their corners may come and go.
     const bool named = !series->mesh()->hasNeighbours() && !step->mesh()->hasNeighbours();
@@ -140,7 +144,8 @@ std::shared_ptr<const Grid> gridOfStep(const std::shared_ptr<const Grid>& series
         return a.name == b.name && a.units == b.units && a.down == b.down;
     };
     if (!std::ranges::equal(series->axes(), step->axes(), sameSpace)) return nullptr;
-    return std::make_shared<const Grid>(series->axes(), step->mesh(), true);
+    return std::make_shared<const Grid>(
+        Grid(series->axes(), step->mesh(), true).withEarth(step->earth()));
 }
 
 std::array<std::size_t, 3> Grid::size() const {
@@ -185,6 +190,14 @@ Grid Grid::relabelled(const std::array<std::string, 3>& names,
         if (flip[a]) same.axes_[a].down = !same.axes_[a].down;
         if (!names[a].empty()) same.axes_[a].name = names[a];
     }
+    return same;
+}
+
+Grid Grid::withEarth(std::shared_ptr<const EarthPlaces> earth) const {
+    assert(!earth || earth->count() == std::uint64_t{size()[0]} * size()[1]);
+    Grid same = *this;
+    same.elsewhere_ = std::make_shared<Elsewhere>();
+    same.earth_ = std::move(earth);
     return same;
 }
 

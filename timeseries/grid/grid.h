@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "timeseries/grid/earth_places.h"
 #include "timeseries/grid/mesh.h"
 
 namespace timeseries {
@@ -104,6 +105,8 @@ class Grid {
     // None: the axes tell where each point lies.
     const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
     bool ofOneStep() const { return ofOneStep_; }
+    // Where its columns stand on the Earth, if its first two axes do not tell. None: null.
+    const std::shared_ptr<const EarthPlaces>& earth() const { return earth_; }
     std::array<std::size_t, 3> size() const;
     std::uint64_t count() const;
     bool uniform() const;
@@ -123,6 +126,8 @@ class Grid {
     double nearestPlane(std::size_t axis, double coordinate) const;
     // The same points, where axes have these names ("" leaves one) and count the other way.
     Grid relabelled(const std::array<std::string, 3>& names, const std::array<bool, 3>& flip) const;
+    // The same points, of which that is known. REQUIRES: as many columns as a level has points.
+    Grid withEarth(std::shared_ptr<const EarthPlaces> earth) const;
 
     glm::vec<3, std::uint64_t> indices(std::uint64_t index) const;
     // In the file's space, in the units of the axes.
@@ -141,7 +146,9 @@ class Grid {
 
     friend bool operator==(const Grid& a, const Grid& b) {
         const bool sameMesh = a.mesh_ == b.mesh_ || (a.mesh_ && b.mesh_ && *a.mesh_ == *b.mesh_);
-        return sameMesh && a.axes_ == b.axes_ && a.frame_ == b.frame_;
+        const bool sameEarth =
+            a.earth_ == b.earth_ || (a.earth_ && b.earth_ && *a.earth_ == *b.earth_);
+        return sameMesh && sameEarth && a.axes_ == b.axes_ && a.frame_ == b.frame_;
     }
 
  private:
@@ -149,6 +156,7 @@ class Grid {
     CoordinateFrame frame_;
     std::shared_ptr<const Mesh> mesh_;
     bool ofOneStep_ = false;
+    std::shared_ptr<const EarthPlaces> earth_;
     struct Elsewhere;
     std::shared_ptr<Elsewhere> elsewhere_;  // shared by copies
 };

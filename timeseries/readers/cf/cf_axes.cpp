@@ -60,13 +60,16 @@ bool isInDegreesEast(const NcVariable& v) {
                    {"degrees_east", "degree_east", "degree_e", "degrees_e", "degreee", "degreese"});
 }
 
+bool isInDegreesNorth(const NcVariable& v) {
+    return isOneOf(lower(v.text("units")), {"degrees_north", "degree_north", "degree_n",
+                                            "degrees_n", "degreen", "degreesn"});
+}
+
 std::optional<AxisKind> byUnits(const NcVariable& v) {
     const std::string units = lower(v.text("units"));
     // CF 1.10, sections 4.1 and 4.2.
     if (isInDegreesEast(v)) return X;
-    if (isOneOf(units,
-                {"degrees_north", "degree_north", "degree_n", "degrees_n", "degreen", "degreesn"}))
-        return Y;
+    if (isInDegreesNorth(v)) return Y;
     if (looksLikeTimeUnits(units)) return T;
     // CF 1.10, section 4.3: pressure is vertical; level, layer and sigma_level are the units of
     // dimensionless levels.
@@ -179,6 +182,10 @@ bool tellsAnAxis(const NcVariable& variable) {
 
 bool isLongitude(const NcVariable& coordinate) {
     return isInDegreesEast(coordinate) || standardName(coordinate) == "longitude";
+}
+
+bool isLatitude(const NcVariable& coordinate) {
+    return isInDegreesNorth(coordinate) || standardName(coordinate) == "latitude";
 }
 
 std::optional<AxisKind> kindByAttributes(const NcVariable& coordinate) {

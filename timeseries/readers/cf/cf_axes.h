@@ -22,6 +22,7 @@ std::optional<AxisKind> kindByAttributes(const NcVariable& coordinate);
 std::optional<AxisKind> kindByName(std::string_view name);
 // Degrees along the equator, by its units (CF 1.10, section 4.2) or its standard name.
 bool isLongitude(const NcVariable& coordinate);
+bool isLatitude(const NcVariable& coordinate);  // likewise, from the equator
 
 // What WRF and MPAS call the texts of their times.
 inline constexpr std::array<std::string_view, 2> kTextTimes{"Times", "xtime"};

@@ -140,7 +140,9 @@ VariableAxes axesOf(const CfFile& file, const FileAxes& fileAxes, const NcVariab
         takeHeights(file, fileAxes, variable, roles, upright, found, notes);
     const bool hasHeights = found.places && found.places->heights;
     std::vector<std::string> ofLevels;  // which place nothing then
-    VariableAxes result{{}, found.places};
+    VariableAxes result{{}, found.places, {}};
+    if (upright && roles.x && roles.y)
+        result.earth = earthOf(header, fileAxes, variable, roles, geographic);
     std::array<Axis, 3>& axes = result.axes;
     for (std::size_t i = 0; i < 3; ++i) {
         if (i < 2 && list) {

@@ -11,6 +11,7 @@
 #include "timeseries/grid/grid.h"
 #include "timeseries/readers/cf/cf_axes.h"
 #include "timeseries/readers/cf/cf_columns.h"
+#include "timeseries/readers/cf/cf_earth.h"
 #include "timeseries/readers/cf/cf_file.h"
 
 namespace timeseries {
@@ -20,6 +21,8 @@ namespace timeseries {
 struct VariableAxes {
     std::array<Axis, 3> axes;
     std::optional<ColumnPlaces> columns = {};
+    // Beside axes that are drawn as they are.
+    std::optional<EarthTold> earth = {};
 };
 
 // `geographic`: the file's longitudes and latitudes of any rank. `list`: where the points lie, of a

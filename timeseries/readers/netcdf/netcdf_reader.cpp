@@ -62,8 +62,9 @@ class CfReader final : public Reader {
     void leaveOutDamaged();
     void expectSameVariables() const;
     void addVariables();
-    void addVariable(std::size_t v);
+    void addVariable(std::size_t v, CfEarth& earth);
     std::shared_ptr<const Grid> gridOf(std::size_t v, std::vector<std::string>& notes);
+    void placeOnEarth(std::size_t v, Variable& variable, CfEarth& earth);
     // Of one step of a file: all points where there is no slab. Without a grid.
     Field valuesOf(std::size_t variable, std::size_t index, std::size_t step, const Slab* slab);
     // The file that holds a step, and which of its steps that is.
@@ -215,9 +216,10 @@ std::shared_ptr<const Mesh> CfReader::meshAt(std::size_t f, std::size_t v, std::
 void CfReader::addVariables() {
     anyTime_ = std::ranges::any_of(
         contents_[0], [](const FileVariable& f) { return !f.times.single || !f.times.counted; });
+    CfEarth earth;
     for (std::size_t v = 0; v < contents_[0].size();) {
         try {
-            addVariable(v);
+            addVariable(v, earth);
             ++v;
         } catch (const AttributeError& error) {
             damaged_.push_back({contents_[0][v].name, error.what()});
@@ -229,7 +231,20 @@ void CfReader::addVariables() {
     if (variables_.empty()) throw FileError(damaged_.front().why);
 }
 
-void CfReader::addVariable(std::size_t v) {
+// Of the first file. That its places on the Earth cannot be told costs nothing else.
+void CfReader::placeOnEarth(std::size_t v, Variable& variable, CfEarth& earth) {
+    const FileVariable& first = contents_[0][v];
+    if (!first.axes.earth) return;
+    CfFile& file = open(0);
+    const NcVariable* const found = file.header().find(first.name, "");
+    if (!found) return;
+    const auto& [places, flaw] = earth.of(file, *found, first.roles, *first.axes.earth);
+    if (!flaw.empty())
+        variable.notes.push_back("no globe by its 2-D longitudes and latitudes: " + flaw);
+    if (places) variable.grid = std::make_shared<const Grid>(variable.grid->withEarth(places));
+}
+
+void CfReader::addVariable(std::size_t v, CfEarth& earth) {
     const FileVariable& first = contents_[0][v];
     Variable variable;
     variable.name = first.name;
@@ -252,6 +267,7 @@ void CfReader::addVariable(std::size_t v) {
     auto time = std::make_shared<TimeAxis>(timeAxisOf(joined.times, variable.notes));
     variable.time = time;
     variable.grid = gridOf(v, variable.notes);
+    placeOnEarth(v, variable, earth);
     if (variable.grid->mesh())
         for (std::string& note : notesOf(*variable.grid->mesh()))
             variable.notes.push_back(std::move(note));
@@ -358,7 +374,8 @@ Field CfReader::read(std::size_t variable, std::size_t seriesStep) {
         try {
             const auto mesh = meshAt(index, variable, step);
             if (*mesh != *field.grid->mesh())
-                field.grid = std::make_shared<const Grid>(field.grid->axes(), mesh, true);
+                field.grid = std::make_shared<const Grid>(
+                    Grid(field.grid->axes(), mesh, true).withEarth(field.grid->earth()));
         } catch (const std::invalid_argument& flaw) {
             open(index).fail(
                 "variable '" + contents_[index][variable].name + "'",
