@@ -18,7 +18,8 @@ struct LegendLayer {
     std::vector<std::pair<double, double>> shown = {};
     // Of a range without an end: the bar's end has the colour of all that lies beyond it, too.
     bool openBelow = false, openAbove = false;
-    // Of a map without a width, which gives all values its middle colour: what stands below its bar.
+    // Of a map without a width, which gives all values its middle colour: what stands below its
+    // bar.
     std::string ofOneColor = {};  // "all 5"
 };
 

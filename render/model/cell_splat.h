@@ -34,6 +34,7 @@
 #include <limits>
 
 #include "render/model/footprint.h"
+#include "render/model/ramps.h"
 #include "render/model/scene.h"
 
 namespace render {
@@ -51,9 +52,6 @@ struct ValuedCell {
 inline constexpr std::size_t kPieces = 3;
 // Less than this of the cell's own change is what rounding leaves of a difference.
 inline constexpr double kLeastChange = 1e-5;
-// As floats have it, a change of f along a piece that is worth dividing by: less has lost more than
-// a thousandth to rounding.
-inline constexpr double kLeastDifference = 1e-4;
 // Of half the cell's own change: what is crossed is no thinner, or rounding would show.
 inline constexpr double kThinnest = 1e-2;
 // Of a cell, how much of it a pixel may step aside for it not to be flat, and to be all flat.
@@ -62,8 +60,6 @@ inline constexpr double kOrdinaryStep = 0.25, kFlatStep = 0.5;
 inline constexpr double kNarrowRamp = 0.125;
 // And about an end that two cells share: what a third of a cell changes, if that is along one axis.
 inline constexpr double kSharedRamp = 2.0 / 3;
-// Of a ray along an axis, so that one along a face divides by something.
-inline constexpr double kLeastStep = 1e-12;
 
 template <typename Real>
 struct CellSplat {
@@ -119,41 +115,17 @@ Value valueAt(const std::array<Value, 8>& f, const glm::vec<3, Real>& u) {
 }
 
 // As CellSplat::f, of values at the corners.
-inline std::array<double, 8> coefficients(const std::array<double, 8>& corners) {
-    std::array<double, 8> c = corners;
+template <typename Real>
+std::array<Real, 8> coefficients(const std::array<Real, 8>& corners) {
+    std::array<Real, 8> c = corners;
     for (unsigned step : {1u, 2u, 4u})
         for (unsigned i = 0; i < 8; ++i)
             if ((i & step) == 0) {
-                const double a = c[i], b = c[i + step];
+                const Real a = c[i], b = c[i + step];
                 c[i] = (a + b) / 2;
                 c[i + step] = b - a;
             }
     return {c[0], c[1], c[2], c[4], c[3], c[5], c[6], c[7]};
-}
-
-// The mean of clamp(x, 0, 1) between a and b.
-template <typename Real>
-Real meanRamp(Real a, Real b) {
-    const Real xa = std::clamp(a, Real(0), Real(1)), xb = std::clamp(b, Real(0), Real(1));
-    const Real between = b - a;
-    if (std::abs(between) < Real(kLeastStep)) return (xa + xb) / 2;
-    return ((xb - xa) * (xb + xa) / 2 + (std::max(b, Real(1)) - std::max(a, Real(1)))) / between;
-}
-
-// The mean of what clamp(x, 0, 1) adds up to from 0 on, between a and b: 0, x^2 / 2, x - 1/2, as Q.
-template <typename Real>
-Real meanAboveRamp(Real a, Real b) {
-    const auto within = [](Real x) { return std::clamp(x, Real(0), Real(1)); };
-    const auto beyond = [](Real x) { return std::max(x - 1, Real(0)); };
-    const Real between = b - a;
-    if (std::abs(between) < Real(kLeastDifference)) {
-        const Real x = (a + b) / 2;
-        return within(x) * within(x) / 2 + beyond(x);
-    }
-    const auto sum = [&](Real x) {
-        return within(x) * within(x) * within(x) / 6 + beyond(x) * (1 + beyond(x)) / 2;
-    };
-    return (sum(b) - sum(a)) / between;
 }
 
 inline bool touches(double least, double greatest, double lo, double hi) {

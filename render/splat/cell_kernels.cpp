@@ -25,7 +25,9 @@ HWY_INLINE void addCells(const CellView& view, std::span<const SeenCell> cells,
     };
     for (std::size_t i = 0; i < which.size(); ++i) {
         if (kChannels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
-        prefetch(cells[which[std::min(i + kAhead, which.size() - 1)]]);
+        const std::uint32_t ahead = which[std::min(i + kAhead, which.size() - 1)];
+        prefetch(cells[ahead]);
+        if (kLit != Lit::No) prefetch(slopes[ahead]);
         const CellSlopes* const lit = kLit == Lit::No ? nullptr : &slopes[which[i]];
         meetCell(Floats(), view, cells[which[i]], lit, room, blocks, add);
     }

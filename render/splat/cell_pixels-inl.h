@@ -25,7 +25,7 @@ struct SeenBlocks {
     using Row = float[hn::MaxLanes(Lanes())];
     struct Block {
         alignas(64) Row middle[3], along[3], length, depth;  // of RayParts
-        alignas(64) Row value, values[kPieces + 1], width, perWidth;
+        alignas(64) Row value, change, values[kPieces + 1], width, perWidth;
         alignas(64) Row weight, front, back, diffuse, specular;
         const SeenCell* cell;
         const CellSlopes* slopes;  // where light falls on them
@@ -93,11 +93,8 @@ HWY_INLINE void meetCell(Lanes lanes, const CellView& view, const SeenCell& c,
     }
 }
 
-// The field along a block's rays, and its light.
-template <Lit kLit, bool kCrossed, class Lanes>
-HWY_INLINE void followField(Lanes lanes, const CellView& view, const TileRoom& room,
-                            typename SeenBlocks<Lanes>::Block& block) {
-    const SeenCell& c = *block.cell;
+template <class Lanes>
+HWY_INLINE RayParts<Lanes> raysOf(Lanes lanes, const typename SeenBlocks<Lanes>::Block& block) {
     RayParts<Lanes> r;
     for (std::size_t a = 0; a < 3; ++a) {
         r.middle[a] = hn::Load(lanes, block.middle[a]);
@@ -105,26 +102,42 @@ HWY_INLINE void followField(Lanes lanes, const CellView& view, const TileRoom& r
     }
     r.length = hn::Load(lanes, block.length);
     r.depth = hn::Load(lanes, block.depth);
+    return r;
+}
+
+// The field along a block's rays.
+template <bool kCrossed, bool kLit, class Lanes>
+HWY_INLINE void followField(Lanes lanes, const CellView& view,
+                            typename SeenBlocks<Lanes>::Block& block) {
+    const SeenCell& c = *block.cell;
+    RayParts<Lanes> r = raysOf(lanes, block);
     const CellLanes<Lanes> cell(lanes, view, c);
     cell.lookHalfWay(r);
     hn::Vec<Lanes> values[kPieces + 1];
     cell.follow(r, values);
     for (std::size_t k = 0; k <= kPieces; ++k) hn::Store(values[k], lanes, block.values[k]);
-    if constexpr (kCrossed)
-        hn::Store(cell.acrossPixel2(r), lanes, block.width);
-    else
-        hn::Store(r.value, lanes, block.value);
-    if constexpr (kLit != Lit::No) {
-        const LightLanes<Lanes> light(lanes, view, c);
-        constexpr PixelBlock<Lanes, kTileStride> pixels;
-        hn::Vec<Lanes> diffuse, specular;
-        cell.lookAtRange(c, r);
-        light.template shade<kLit>(view, c, *block.slopes, r,
-                                   pixels.load(lanes, room.factor.data() + block.at), diffuse,
-                                   specular);
-        hn::Store(diffuse, lanes, block.diffuse);
-        hn::Store(specular, lanes, block.specular);
-    }
+    hn::Store(r.value, lanes, block.value);
+    if constexpr (kCrossed) hn::Store(cell.acrossPixel2(r), lanes, block.width);
+    if constexpr (kCrossed && kLit) hn::Store(cell.dot(r.gradient, r.along), lanes, block.change);
+}
+
+// Its light, where its rays meet the range.
+template <Lit kLit, class Lanes>
+HWY_INLINE void light(Lanes lanes, const CellView& view, const TileRoom& room,
+                      typename SeenBlocks<Lanes>::Block& block) {
+    constexpr PixelBlock<Lanes, kTileStride> pixels;
+    const SeenCell& c = *block.cell;
+    const LightLanes<Lanes> lit(lanes, view, c);
+    RayParts<Lanes> r = raysOf(lanes, block);
+    hn::Vec<Lanes> place = r.depth, diffuse, specular;
+    if (c.crossesLeast() || c.crossesMost())
+        place = hn::Add(place, inRange(lanes, c, hn::Load(lanes, block.value),
+                                       hn::Load(lanes, block.change), r.length));
+    for (std::size_t a = 0; a < 3; ++a) r.middle[a] = hn::MulAdd(place, r.along[a], r.middle[a]);
+    lit.template shade<kLit>(view, c, *block.slopes, r,
+                             pixels.load(lanes, room.factor.data() + block.at), diffuse, specular);
+    hn::Store(diffuse, lanes, block.diffuse);
+    hn::Store(specular, lanes, block.specular);
 }
 
 // What of a block's rays lies in the range, and which values are seen.
@@ -188,9 +201,9 @@ HWY_INLINE void addBlocks(Lanes lanes, const CellView& view, TileRoom& room,
     };
     const auto look = [&]<int kEnds>() HWY_ATTR {
         const auto& [places, count] = blocks.crossing[kEnds];
-        if constexpr (kEnds > 0 || kByValue || kLit != Lit::No)
+        if constexpr (kEnds > 0 || kByValue)
             for (std::size_t k = 0; k < count; ++k)
-                followField<kLit, (kEnds > 0)>(lanes, view, room, blocks.all[places[k]]);
+                followField<(kEnds > 0), kLit != Lit::No>(lanes, view, blocks.all[places[k]]);
         if constexpr (kEnds > 0)
             for (std::size_t k = 0; k < count; ++k) {
                 auto& block = blocks.all[places[k]];
@@ -207,11 +220,17 @@ HWY_INLINE void addBlocks(Lanes lanes, const CellView& view, TileRoom& room,
     look.template operator()<0>();
     look.template operator()<1>();
     look.template operator()<2>();
+    // A ray passes many cells that reach into the range elsewhere.
+    const auto isSeen = [&](const auto& block) HWY_ATTR {
+        return !hn::AllFalse(lanes, hn::Gt(hn::Load(lanes, block.weight), hn::Zero(lanes)));
+    };
+    if constexpr (kLit != Lit::No)
+        for (std::size_t k = 0; k < blocks.count; ++k)
+            if (isSeen(blocks.all[k])) light<kLit>(lanes, view, room, blocks.all[k]);
     for (std::size_t k = 0; k < blocks.count; ++k) {
         const auto& block = blocks.all[k];
         const V weight = hn::Load(lanes, block.weight);
-        // A ray passes many cells that reach into the range elsewhere.
-        if (hn::AllFalse(lanes, hn::Gt(weight, hn::Zero(lanes)))) continue;
+        if (!isSeen(block)) continue;
         addWeight<kChannels>(PixelBlock<Lanes, kTileStride>(), lanes, weight, room, block.at,
                              [&](V* colors) HWY_ATTR {
                                  if constexpr (kColors) {

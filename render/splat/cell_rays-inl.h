@@ -126,22 +126,6 @@ struct CellLanes {
         ends(1, values[0], values[3]);
         ends(1 / 3.0f, values[1], values[2]);
     }
-    // Moves `middle` to where the field is as if it were linear along the ray: the middle of what
-    // lies in the range.
-    HWY_INLINE void lookAtRange(const SeenCell& c, RayParts<Lanes>& r) const {
-        if (!c.crossesLeast() && !c.crossesMost()) return;
-        const V half = hn::Mul(hn::Set(lanes, 0.5f), r.length);
-        const V change = dot(r.gradient, r.along), tiny = hn::Set(lanes, 1e-12f);
-        const V per = reciprocal(lanes, hn::CopySign(hn::Max(hn::Abs(change), tiny), change));
-        const auto at = [&](float bound) HWY_ATTR {
-            const V way = hn::Mul(hn::Sub(hn::Set(lanes, bound), r.value), per);
-            return hn::Min(hn::Max(way, hn::Neg(half)), half);
-        };
-        const V ends =
-            hn::Add(at(c.crossesLeast() ? c.least : -2.0f), at(c.crossesMost() ? c.most : 2.0f));
-        for (std::size_t a = 0; a < 3; ++a)
-            r.middle[a] = hn::MulAdd(hn::Mul(hn::Set(lanes, 0.5f), ends), r.along[a], r.middle[a]);
-    }
     // The square of the width of the ramp that a pixel makes of an end of the range.
     HWY_INLINE V acrossPixel2(const RayParts<Lanes>& r) const {
         constexpr float kLeast = static_cast<float>(2 * kLeastChange);
@@ -156,6 +140,22 @@ struct CellLanes {
         return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
     }
 };
+
+// From the middle of a ray's way, where the field has that value and changes so, to the middle of
+// what lies in the range, as if it were linear along the ray.
+template <class Lanes, class V = hn::Vec<Lanes>>
+HWY_INLINE V inRange(Lanes lanes, const SeenCell& c, V value, V change, V length) {
+    constexpr float kBeyond = 2;  // more than f can be
+    const V half = hn::Set(lanes, 0.5f), reach = hn::Mul(half, length);
+    const V least = hn::Set(lanes, 1e-12f);
+    const V per = reciprocal(lanes, hn::CopySign(hn::Max(hn::Abs(change), least), change));
+    const auto at = [&](float bound) HWY_ATTR {
+        const V way = hn::Mul(hn::Sub(hn::Set(lanes, bound), value), per);
+        return hn::Min(hn::Max(way, hn::Neg(reach)), reach);
+    };
+    return hn::Mul(half, hn::Add(at(c.crossesLeast() ? c.least : -kBeyond),
+                                 at(c.crossesMost() ? c.most : kBeyond)));
+}
 
 // Where light comes from, if there is some.
 enum class Lit { No, FromEye, FromLamp };
@@ -179,15 +179,14 @@ struct LightLanes {
     HWY_INLINE void shade(const CellView& view, const SeenCell& c, const CellSlopes& slopes,
                           const RayParts<Lanes>& r, V factor, V& diffuse, V& specular) const {
         const V one = hn::Set(lanes, 1.0f), tiny = hn::Set(lanes, 1e-30f);
-        const V *const m = r.middle, xy = hn::Mul(m[0], m[1]), xz = hn::Mul(m[0], m[2]),
-                       yz = hn::Mul(m[1], m[2]), xyz = hn::Mul(xy, m[2]);
+        const V* const m = r.middle;
         V g[3], change = hn::Zero(lanes);
         for (std::size_t a = 0; a < 3; ++a) {
             const auto f = [&](std::size_t k) HWY_ATTR { return hn::Set(lanes, slopes[a][k]); };
-            V sum = hn::MulAdd(f(1), m[0], f(0));
-            sum = hn::MulAdd(f(2), m[1], hn::MulAdd(f(3), m[2], sum));
-            sum = hn::MulAdd(f(4), xy, hn::MulAdd(f(5), xz, sum));
-            sum = hn::MulAdd(f(6), yz, hn::MulAdd(f(7), xyz, sum));
+            const auto inZ = [&](std::size_t low, std::size_t high)
+                                 HWY_ATTR { return hn::MulAdd(f(high), m[2], f(low)); };
+            const V ofX = hn::MulAdd(inZ(4, 7), m[1], inZ(1, 5));
+            const V sum = hn::MulAdd(ofX, m[0], hn::MulAdd(inZ(2, 6), m[1], inZ(0, 3)));
             change = hn::MulAdd(sum, r.along[a], change);
             g[a] = hn::Mul(sum, perSize[a]);
         }

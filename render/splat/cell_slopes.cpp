@@ -6,6 +6,11 @@
 #include "render/splat/cell_pieces.h"
 
 namespace render {
+namespace {
+
+constexpr double kMost = 1e9;  // its square is a float
+
+}  // namespace
 
 PointSlopes::PointSlopes(const Scene& scene) : scene_(scene), cells_(scene.cells->size()) {
     std::uint32_t step = 1;
@@ -57,22 +62,51 @@ std::array<glm::dvec3, 8> PointSlopes::atCorners(const glm::uvec3& cell, double 
     return out;
 }
 
+// Where every value is there: false where a difference is no number.
+bool PointSlopes::takeWhole(const glm::uvec3& cell, const glm::dvec3& perExtent,
+                            CellSlopes& slopes) const {
+    if (!scene_.cells->field().missing.empty()) return false;
+    const timeseries::CellCorners& corners = scene_.cells->cornersOf();
+    const glm::uvec3 low = corners.pointAt(cell, 0), high = corners.pointAt(cell, 7);
+    const std::array points = corners.pointsOf(cell);
+    double none = 0;
+    const auto take = [&](const auto& values) {
+        for (unsigned c = 0; c < 8; ++c)
+            for (int a = 0; a < 3; ++a) {
+                const Neighbours& to =
+                    along_[static_cast<std::size_t>(a)][(c >> a & 1 ? high : low)[a]];
+                const auto below = static_cast<double>(values[points[c] - to.below]);
+                const auto above = static_cast<double>(values[points[c] + to.above]);
+                const double slope = (0.5 * above - 0.5 * below) * (perExtent[a] * to.perBoth);
+                none += slope - slope;
+                slopes[static_cast<std::size_t>(a)][c] =
+                    static_cast<float>(std::clamp(slope, -kMost, kMost));
+            }
+    };
+    std::visit(take, scene_.cells->field().values);
+    return none == 0;
+}
+
 CellSlopes PointSlopes::in(std::uint32_t cell, unsigned octant, const glm::dvec3& size,
                            double extent) const {
-    constexpr double kMost = 1e9;  // its square is a float
-    if (!(extent > 0)) return {};
-    const std::array<glm::dvec3, 8> slopes = atCorners(cells_(cell), extent);
-    CellSlopes out;
-    for (int a = 0; a < 3; ++a) {
-        std::array<double, 8> along{};
+    constexpr double kLeastExtent = 1e-300;  // what a number may be divided by
+    CellSlopes slopes{};
+    if (!(extent > 0)) return slopes;
+    const glm::uvec3 where = cells_(cell);
+    if (!takeWhole(where, size * (2 / std::max(extent, kLeastExtent)), slopes)) {
+        const std::array<glm::dvec3, 8> all = atCorners(where, extent);
         for (unsigned c = 0; c < 8; ++c)
-            along[c] = std::clamp(slopes[c][a] * size[a], -kMost, kMost);
-        std::array<double, 8> of = along;
-        for (unsigned c = 0; c < 8 && octant != kWholeCell; ++c)
-            of[c] = cell::valueAt(along, placeInOctant(octant, c));
-        std::ranges::copy(cell::coefficients(of), out[static_cast<std::size_t>(a)].begin());
+            for (int a = 0; a < 3; ++a)
+                slopes[static_cast<std::size_t>(a)][c] =
+                    static_cast<float>(std::clamp(all[c][a] * size[a], -kMost, kMost));
     }
-    return out;
+    for (std::array<float, 8>& along : slopes) {
+        std::array<float, 8> of = along;
+        for (unsigned c = 0; c < 8 && octant != kWholeCell; ++c)
+            of[c] = cell::valueAt(along, glm::vec3(placeInOctant(octant, c)));
+        along = cell::coefficients(of);
+    }
+    return slopes;
 }
 
 }  // namespace render

@@ -35,6 +35,8 @@ class PointSlopes {
     };
     glm::dvec3 at(const glm::uvec3& point, double extent) const;
 
+    bool takeWhole(const glm::uvec3& cell, const glm::dvec3& perExtent, CellSlopes& slopes) const;
+
     const Scene& scene_;
     timeseries::IndicesAlong cells_;
     std::array<std::vector<Neighbours>, 3> along_;
