@@ -133,6 +133,7 @@ class Exploration {
     void openEdited(Explorer next, std::string_view gesture);
     void openFirst(std::vector<std::filesystem::path> named);
     void openAgain();
+    void takeStepsOfNow(Explorer& wish) const;
     void begin(Pending wish);
     void fail(std::string why);
     void takeOpened();

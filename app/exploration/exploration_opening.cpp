@@ -35,9 +35,9 @@ void takeLook(Explorer& e, const Explorer& from) {
 bool samePaths(std::span<const std::filesystem::path> a, std::span<const std::filesystem::path> b) {
     std::error_code unknown;
     return std::ranges::equal(a, b, [&](const auto& one, const auto& other) {
+        if (one == other) return true;
         const auto place = std::filesystem::weakly_canonical(one, unknown);
-        return one == other ||
-               (!place.empty() && place == std::filesystem::weakly_canonical(other, unknown));
+        return !place.empty() && place == std::filesystem::weakly_canonical(other, unknown);
     });
 }
 
@@ -67,12 +67,15 @@ void Exploration::openFirst(std::vector<std::filesystem::path> named) {
 }
 
 // What was chosen stays, and so does the step, by its time: files may have come and gone.
-void Exploration::openAgain() {
-    Explorer wish = explorer();
+void Exploration::openAgain() { begin({.wish = explorer(), .rest = Pending::Rest::Again}); }
+
+// What plays goes on while files are read.
+void Exploration::takeStepsOfNow(Explorer& wish) const {
+    wish.steps = explorer().steps;
+    wish.play.time = explorer().play.time;
     const timeseries::TimeAxis& time = *open_->dataset.variable.time;
     if (wish.steps)
         wish.stepTime = timeKept(time, std::min(wish.steps->first, time.points.size() - 1));
-    begin({.wish = std::move(wish), .rest = Pending::Rest::Again});
 }
 
 void Exploration::open(Explorer session) {
@@ -139,6 +142,7 @@ void Exploration::takeOpened() {
     wish.variable = dataset.variable.name;
     chooseAxes(dataset, wish.axes);
     const std::size_t last = dataset.stepCount() - 1;
+    if (open_ && pending_->rest == Pending::Rest::Again) takeStepsOfNow(wish);
     findStepThen(dataset, wish);
     const StepChoice asked =
         wish.steps.value_or(StepChoice{dataset.defaultStep, dataset.defaultStep});

@@ -69,9 +69,30 @@ std::optional<Hold> ClipSpace::holdOf(const xr::Pose& aim, const AxisBox& box) c
     return onRay(aim, box);
 }
 
-// In steps, up to where the Earth hides the rest, then by halves.
+// Ascending: even steps, and where the ray meets the two spheres between which the box lies, which
+// may be thinner than a step.
+std::vector<double> ClipSpace::stepsOnRay(const glm::dvec3& eye, const glm::dvec3& way,
+                                          const AxisBox& box, double farthest) const {
+    constexpr int kSteps = 1024;
+    std::vector<double> steps;
+    for (int n = 0; n <= kSteps; ++n) steps.push_back(farthest * n / kSteps);
+    const glm::dvec3 centre = placed_.axesFromGlobe(glm::dvec3(0)), from = eye - centre;
+    const double a = glm::dot(way, way), b = glm::dot(from, way);
+    for (const glm::dvec3& end : {box.lo, box.hi}) {
+        const double radius =
+            glm::distance(placed_.axesFromGlobe(placed_.globe()->at(end)), centre);
+        const double root =
+            std::sqrt(std::max(b * b - a * (glm::dot(from, from) - radius * radius), 0.0));
+        for (const double t : {(-b - root) / a, (-b + root) / a})
+            if (t > 0 && t < farthest) steps.push_back(t);
+    }
+    std::ranges::sort(steps);
+    return steps;
+}
+
+// Up to where the Earth hides the rest: between which steps it comes in or leaves, then by halves.
 std::optional<Hold> ClipSpace::onRay(const xr::Pose& aim, const AxisBox& box) const {
-    constexpr int kSteps = 1024, kHalvings = 40;
+    constexpr int kHalvings = 40;
     if (whole_.lo[kThird] == whole_.hi[kThird]) return std::nullopt;  // no thickness to be in
     const glm::dvec3 along = aim.orientation * glm::dvec3(0, 0, -1);
     const glm::dvec3 eye(axesFromStage_ * glm::dvec4(aim.position, 1)),
@@ -81,9 +102,14 @@ std::optional<Hold> ClipSpace::onRay(const xr::Pose& aim, const AxisBox& box) co
     const auto at = [&](double t) { return aim.position + t * along; };
     const auto isIn = [&](double t) { return isWithin(box, fromStage(at(t))); };
     const bool begins = isIn(0);
-    for (int n = 1; n <= kSteps; ++n) {
-        double before = farthest * (n - 1) / kSteps, after = farthest * n / kSteps;
-        if (isIn(after) == begins) continue;
+    const std::vector<double> steps = stepsOnRay(eye, way, box, farthest);
+    double before = 0;
+    for (std::size_t n = 1; n < steps.size(); ++n) {
+        double after = 0.5 * (steps[n - 1] + steps[n]);
+        if (isIn(after) == begins) {
+            before = after;
+            continue;
+        }
         for (int i = 0; i < kHalvings; ++i) {
             const double half = 0.5 * (before + after);
             (isIn(half) == begins ? before : after) = half;

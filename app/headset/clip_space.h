@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "app/drawing/drawn.h"
 #include "app/headset/clip_faces.h"
@@ -40,6 +41,8 @@ class ClipSpace {
 
  private:
     bool isGlobe() const { return placed_.globe() != nullptr; }
+    std::vector<double> stepsOnRay(const glm::dvec3& eye, const glm::dvec3& way, const AxisBox& box,
+                                   double farthest) const;
     std::optional<Hold> onRay(const xr::Pose& aim, const AxisBox& box) const;
 
     const render::PlacedPoints& placed_;

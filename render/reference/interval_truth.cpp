@@ -222,7 +222,7 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
                                            (to - from) * ray.weight};
                          collect(way, work);
                          if (slopes && !layers_.front().fieldIn(cell).isEven())
-                             work.slopes = slopes->atCorners(cell, scale);
+                             work.slopes = slopes->gradients(cell, scale);
                          else
                              work.slopes = {};
                          for (std::size_t i = 1; i < work.ends.size(); ++i)

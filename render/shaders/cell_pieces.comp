@@ -24,7 +24,7 @@ layout(std430, binding = 2) readonly buffer Missing { uint missing[]; };  // a b
 layout(std430, binding = 3) readonly buffer Ranges { dvec2 ranges[]; };
 layout(std430, binding = 4) buffer Starts { uint starts[]; };  // of each workgroup
 layout(std430, binding = 5) writeonly buffer Pieces { Piece pieces[]; };
-layout(std430, binding = 6) readonly buffer CornerSlopes { uvec2 cornerSlopes[]; };  // of CORNERS, / kSlopesOf
+layout(std430, binding = 6) readonly buffer CornerSlopes { float cornerSlopes[]; };  // of CORNERS, a cell and axis eight
 layout(std430, binding = 7) writeonly buffer Slopes { float slopes[]; };  // as fragments read them
 
 const double kThinnest = 1e-2LF;  // as cell_splat.h has it
@@ -72,8 +72,6 @@ struct Corners {
     Eight values;
     uint octants;  // that are seen, a bit each
 };
-
-const double kSlopesOf = 4.0LF;  // what slopes of values are divided by
 
 uvec3 pointAt(uvec3 cell, uint corner) {
     const uvec3 up = max(cell + uvec3(corner & 1u, corner >> 1 & 1u, corner >> 2), uvec3(1u)) - 1u;
@@ -171,12 +169,9 @@ bool isThin(double extent, dvec2 range, dvec3 size) {
            extent / (range.y - range.x) * 2.0LF * length(cells.unitLength / size) > 1.0LF;
 }
 
-// What values / kSlopesOf change a unit of length there, along an axis; as PointSlopes has it
+// At a point, what values / extent change a unit of length along an axis; as PointSlopes has it
 // (render/splat/cell_slopes.h).
-double slopeAt(uvec3 at, uint axis) {
-#ifdef CORNERS
-    return 0.0LF;  // not asked for
-#else
+double slopeAt(uvec3 at, uint axis, double extent) {
     const uvec3 steps = uvec3(1u, cells.points.x, cells.points.x * cells.points.y);
     const uvec3 n = cells.points.xyz + 1u;
     const uint point = at.x + steps.y * at.y + steps.z * at.z;
@@ -190,25 +185,35 @@ double slopeAt(uvec3 at, uint axis) {
     const double way = (fromBelow ? double(texelFetch(axisSides, first).y) : 0.0LF) +
                        (toAbove ? double(texelFetch(axisSides, first + 1).y) : 0.0LF);
     if (way == 0.0LF) return 0.0LF;
-    return ((toAbove ? above : here) / kSlopesOf - (fromBelow ? below : here) / kSlopesOf) / way;
+    const double apart = 0.5LF * (toAbove ? above : here) - 0.5LF * (fromBelow ? below : here);
+    return 2.0LF * (apart / extent) / way;
+}
+
+// What f changes over a cell at a corner, along an axis; of CORNERS as it is of the whole cell.
+double cornerSlope(uint place, uvec3 cell, uint corner, uint axis, dvec3 size, double extent) {
+    if (!(extent > 0.0LF)) return 0.0LF;
+#ifdef CORNERS
+    return double(cornerSlopes[24u * place + 8u * axis + corner]);
+#else
+    const double changes = slopeAt(pointAt(cell, corner), axis, extent) * size[axis];
+    return isValue(changes) ? clamp(changes, -1e9LF, 1e9LF) : 0.0LF;
 #endif
 }
 
-// Of the piece that becomes the to-th, of a cell whose place is the place-th, and of this size.
-void takeSlopes(uint to, uint place, uvec3 cell, uint octant, dvec3 size, double extent) {
+// Of the piece that becomes the to-th, of a cell that is the place-th asked for: of this size, and
+// in which the field is reference + extent f.
+void takeSlopes(uint to, uint place, uvec3 cell, uint octant, dvec3 size, double extent, double whole) {
     for (uint axis = 0u; axis < 3u; ++axis) {
-        Eight e;
-        for (uint k = 0u; k < 8u; ++k) {
-#ifdef CORNERS
-            const double slope = packDouble2x32(cornerSlopes[3u * (8u * place + k) + axis]);
-#else
-            const double slope = slopeAt(pointAt(cell, k), axis);
-#endif
-            const double changes = extent > 0.0LF ? slope / extent * kSlopesOf * size[axis] : 0.0LF;
-            e.of[k] = unpackDouble2x32(clamp(changes, -1e9LF, 1e9LF));
-        }
         Corners c;
-        c.values = e;
+        for (uint k = 0u; k < 8u; ++k) {
+            double changes = cornerSlope(place, cell, k, axis, size, extent);
+#ifdef CORNERS
+            changes *= (octant == kWholeCell ? 1.0LF : 0.5LF) * (whole / extent);
+            if (!isValue(changes)) changes = 0.0LF;
+            changes = clamp(changes, -1e9LF, 1e9LF);
+#endif
+            c.values.of[k] = unpackDouble2x32(changes);
+        }
         const Eight of = cornersOf(c, octant);
         float f[8];
         for (uint k = 0u; k < 8u; ++k) f[k] = float(at(of, k));
@@ -217,6 +222,16 @@ void takeSlopes(uint to, uint place, uvec3 cell, uint octant, dvec3 size, double
         const uint order[8] = uint[8](0u, 1u, 2u, 4u, 3u, 5u, 6u, 7u);
         for (uint k = 0u; k < 8u; ++k) slopes[begin + k] = f[order[k]];
     }
+}
+
+// Half of what there is between the least and the greatest.
+double extentOf(Eight e) {
+    double least = at(e, 0u), greatest = least;
+    for (uint k = 1u; k < 8u; ++k) {
+        least = min(least, at(e, k));
+        greatest = max(greatest, at(e, k));
+    }
+    return 0.5LF * greatest - 0.5LF * least;
 }
 
 float floatPlace(double at) { return float(clamp(at, -1e30LF, 1e30LF)); }
@@ -296,7 +311,7 @@ uint take(Corners c, uint place, uint number, uvec3 cell, bool writes, uint firs
                 pieces[first + count] = p;
                 if ((cells.points.w & 4u) != 0u)
                     takeSlopes(first + count, place, cell, octant, isWhole ? size : 0.5LF * size,
-                               0.5LF * greatest - 0.5LF * least);
+                               0.5LF * greatest - 0.5LF * least, extentOf(c.values));
             }
             ++count;
         }

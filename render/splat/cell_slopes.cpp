@@ -55,7 +55,7 @@ glm::dvec3 PointSlopes::at(const glm::uvec3& point, double extent) const {
     return std::visit(slopes, field.values);
 }
 
-std::array<glm::dvec3, 8> PointSlopes::atCorners(const glm::uvec3& cell, double extent) const {
+std::array<glm::dvec3, 8> PointSlopes::gradients(const glm::uvec3& cell, double extent) const {
     std::array<glm::dvec3, 8> out;
     for (unsigned c = 0; c < 8; ++c)
         out[c] = at(scene_.cells->cornersOf().pointAt(cell, c), extent);
@@ -87,19 +87,23 @@ bool PointSlopes::takeWhole(const glm::uvec3& cell, const glm::dvec3& perExtent,
     return none == 0;
 }
 
-CellSlopes PointSlopes::in(std::uint32_t cell, unsigned octant, const glm::dvec3& size,
-                           double extent) const {
+CellSlopes PointSlopes::atCorners(const glm::uvec3& cell, const glm::dvec3& size,
+                                  double extent) const {
     constexpr double kLeastExtent = 1e-300;  // what a number may be divided by
     CellSlopes slopes{};
-    if (!(extent > 0)) return slopes;
-    const glm::uvec3 where = cells_(cell);
-    if (!takeWhole(where, size * (2 / std::max(extent, kLeastExtent)), slopes)) {
-        const std::array<glm::dvec3, 8> all = atCorners(where, extent);
-        for (unsigned c = 0; c < 8; ++c)
-            for (int a = 0; a < 3; ++a)
-                slopes[static_cast<std::size_t>(a)][c] =
-                    static_cast<float>(std::clamp(all[c][a] * size[a], -kMost, kMost));
-    }
+    if (!(extent > 0) || takeWhole(cell, size * (2 / std::max(extent, kLeastExtent)), slopes))
+        return slopes;
+    const std::array<glm::dvec3, 8> all = gradients(cell, extent);
+    for (unsigned c = 0; c < 8; ++c)
+        for (int a = 0; a < 3; ++a)
+            slopes[static_cast<std::size_t>(a)][c] =
+                static_cast<float>(std::clamp(all[c][a] * size[a], -kMost, kMost));
+    return slopes;
+}
+
+CellSlopes PointSlopes::in(std::uint32_t cell, unsigned octant, const glm::dvec3& size,
+                           double extent) const {
+    CellSlopes slopes = atCorners(cells_(cell), size, extent);
     for (std::array<float, 8>& along : slopes) {
         std::array<float, 8> of = along;
         for (unsigned c = 0; c < 8 && octant != kWholeCell; ++c)

@@ -24,8 +24,10 @@ class PointSlopes {
 
     // Of a cell's octant, or of all of it (kWholeCell), which is of this size.
     CellSlopes in(std::uint32_t cell, unsigned octant, const glm::dvec3& size, double extent) const;
-    // At a cell's corners, what values / extent change a unit of length along each axis.
-    std::array<glm::dvec3, 8> atCorners(const glm::uvec3& cell, double extent) const;
+    // At the corners of a cell of this size what f changes over it, along each axis.
+    CellSlopes atCorners(const glm::uvec3& cell, const glm::dvec3& size, double extent) const;
+    // And what values / extent change there, a unit of length.
+    std::array<glm::dvec3, 8> gradients(const glm::uvec3& cell, double extent) const;
 
  private:
     // Of a point along an axis: its neighbours, and what a difference is divided by.

@@ -90,14 +90,14 @@ gl::Buffer cornersOf(const timeseries::CellIndex& cells, std::span<const std::ui
             return cells.cornersOf().values(timeseries::indicesOf(number, cells.size()));
         })));
 }
-// Of what values / kSlopesOf are there: differences of any are numbers then.
-constexpr double kSlopesOf = 4;
-using CornerSlopes = std::array<glm::dvec3, kCorners>;
 gl::Buffer cornerSlopesOf(const Scene& scene, std::span<const std::uint32_t> numbers) {
     const PointSlopes points(scene);
-    return gl::Buffer(std::span<const CornerSlopes>(
-        ofEach(*scene.cells, numbers, [&](std::uint32_t number) -> CornerSlopes {
-            return points.atCorners(timeseries::indicesOf(number, scene.cells->size()), kSlopesOf);
+    return gl::Buffer(std::span<const CellSlopes>(
+        ofEach(*scene.cells, numbers, [&](std::uint32_t number) -> CellSlopes {
+            const ValuedCell cell = seenOctants(scene, number).cell;
+            const auto [least, greatest] = std::ranges::minmax(cell.corners);
+            return points.atCorners(timeseries::indicesOf(number, scene.cells->size()),
+                                    cell.to - cell.from, 0.5 * greatest - 0.5 * least);
         })));
 }
 
@@ -196,8 +196,8 @@ GlCellLister::Asked GlCellLister::askedOf(const Scene& scene) {
     return asked;
 }
 
-// Each time as many bytes of the field are sent as the corners of the cells are: it never costs
-// more than twice what the better of the two does.
+// Each time as many bytes of the field are sent as the corners of the cells are, or what values
+// change there: it hardly ever costs more than twice what the better of the two does.
 GlCellLister::Given GlCellLister::given(const Scene& scene, const Asked& asked,
                                         std::uint64_t mostBytes) {
     const std::shared_ptr<const timeseries::Field>& field = scene.cells->sharedField();
@@ -208,7 +208,10 @@ GlCellLister::Given GlCellLister::given(const Scene& scene, const Asked& asked,
         sent_ = 0;
         hasRoom_ = true;
     }
-    if (!holdsField(scene)) keepMore(*field, asked.numbers.size() * sizeof(Corners), mostBytes);
+    const std::uint64_t sent =
+        asked.numbers.size() *
+        std::max(sizeof(Corners), scene.light == Light::Off ? 0 : sizeof(CellSlopes));
+    if (!holdsField(scene)) keepMore(*field, sent, mostBytes);
     const bool isThere = holdsField(scene);
     const CellsBlock block = blockOf(scene);
     Given given{
@@ -222,6 +225,7 @@ GlCellLister::Given GlCellLister::given(const Scene& scene, const Asked& asked,
         isThere ? &*values_ : nullptr,
         isThere && missing_ ? &*missing_ : nullptr};
     if (isThere) return given;
+    if (sent > mostBytes) throw std::runtime_error(kTooManyPieces);
     given.corners.emplace(cornersOf(*scene.cells, asked.numbers));
     if (scene.light != Light::Off) given.cornerSlopes.emplace(cornerSlopesOf(scene, asked.numbers));
     return given;

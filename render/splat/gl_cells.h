@@ -1,6 +1,7 @@
 // The cells of an upright grid on the GPU.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -27,8 +28,9 @@ class GlCells final : public GlPieces {
     GlCells(const Scene& scene, std::uint64_t mostBytes, GlCellLister& lister);
     std::uint64_t bytes() const override;
     const gl::Buffer* slopes() const override { return slopes_.get(); }
+    // In the larger of two buffers.
     static std::uint64_t bytesOfOne(const Scene& scene) {
-        return sizeof(GlCell) + (scene.light == Light::Off ? 0 : sizeof(CellSlopes));
+        return std::max(sizeof(GlCell), scene.light == Light::Off ? 0 : sizeof(CellSlopes));
     }
     const gl::BufferTexture* sides() const override { return &sidesTexture_; }
 

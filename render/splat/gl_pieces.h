@@ -32,7 +32,7 @@ class GlPieces {
     // Makes so many cells more, or so, of the scene that they are of. Returns the share of all that
     // is made, [0, 1].
     virtual double goOn(const Scene&, std::uint64_t) { return 1; }
-    // What they take where what is missing or clipped parts none of them.
+    // What they take, in the largest buffer, where what is missing or clipped parts none of them.
     static std::uint64_t bytesOf(const Scene& scene);
 
     // Whether they are those of this scene, whatever its view, its colours and their opacity.

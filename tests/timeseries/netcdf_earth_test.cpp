@@ -249,7 +249,7 @@ TEST(NetcdfEarth, ColumnsThatAreNoPlacesCostTheGlobeAlone) {
     const Variable& v = reader->variables()[0];
     expectUpright(*v.grid);
     EXPECT_FALSE(v.grid->earth());
-    EXPECT_THAT(v.notes, ElementsAre("no globe by its 2-D longitudes and latitudes: none of them "
+    EXPECT_THAT(v.notes, ElementsAre("no globe by its longitudes and latitudes: none of them "
                                      "is a longitude and latitude in degrees"));
 }
 

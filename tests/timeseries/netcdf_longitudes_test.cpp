@@ -55,7 +55,7 @@ TEST(NetcdfLongitudes, OfTwoDimensionsAreToldUnlessMeasuredAxesExist) {
     EXPECT_THAT(notesOfCurvilinear(""), ElementsAre(note));
     EXPECT_THAT(notesOfCurvilinear("1"), ElementsAre(note)) << "cell numbers place nothing";
     const std::string noGlobe =
-        "no globe by its 2-D longitudes and latitudes: none of them is a longitude and latitude in "
+        "no globe by its longitudes and latitudes: none of them is a longitude and latitude in "
         "degrees";
     EXPECT_THAT(notesOfCurvilinear("degrees"), ElementsAre(noGlobe)) << "a rotated pole";
     EXPECT_THAT(notesOfCurvilinear("km"), ElementsAre(noGlobe)) << "a map projection";

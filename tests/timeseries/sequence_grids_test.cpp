@@ -58,11 +58,12 @@ Told gridsOf(const std::vector<std::string>& files) {
     return {grids, opened - static_cast<int>(paths.size())};
 }
 
-TEST(SequenceGrids, OfAsManyPointsTheLastFileTells) {
+TEST(SequenceGrids, OfAsManyPointsTheMiddleAndTheLastFileTell) {
     const Told same = gridsOf({step(0), step(1), step(2)});
     EXPECT_EQ(same.grids.are, Are::One);
-    EXPECT_EQ(same.opened, 1);
+    EXPECT_EQ(same.opened, 2);
     EXPECT_EQ(gridsOf({step(0), step(1), step(2, kFourElsewhere)}).grids.are, Are::Moved);
+    EXPECT_EQ(gridsOf({step(0), step(1, kFourElsewhere), step(2)}).grids.are, Are::Moved);
     const Told joined = gridsOf({step(0), step(1), step(2, kFour, "0 1 2 3 0 1 2 3")});
     EXPECT_EQ(joined.grids.are, Are::Own);
     EXPECT_EQ(joined.grids.least, 4u);

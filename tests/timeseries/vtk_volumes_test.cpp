@@ -306,6 +306,30 @@ TEST(VtkVolumes, OfASheetAreAsThickAsItsCellsAreWide) {
                   [&](std::size_t n) { return double(2 * (n % 3) + 1) * std::sqrt(mean); });
 }
 
+// A curved one's cells are no parallelograms: their areas are those that their middle lines span.
+TEST(VtkVolumes, OfACurvedSheetAreItsCellsAreas) {
+    const auto place = [](double i, double j, double) {
+        return glm::dvec3(i, j, std::sin(0.9 * i) * std::cos(0.7 * j + 0.2 * i));
+    };
+    constexpr int kCells = 30;
+    const auto sheet = structured({kCells + 1, kCells + 1, 1}, place);
+    std::vector<double> areas;
+    double sum = 0;
+    for (int j = 0; j < kCells; ++j)
+        for (int i = 0; i < kCells; ++i) {
+            const auto middle = [&](double x, double y, double to, double up) {
+                return 0.5 * (place(x, y, 0) + place(to, up, 0));
+            };
+            areas.push_back(
+                glm::length(glm::cross(middle(i + 1, j, i + 1, j + 1) - middle(i, j, i, j + 1),
+                                       middle(i, j + 1, i + 1, j + 1) - middle(i, j, i + 1, j))));
+            sum += areas.back();
+        }
+    const double thick = std::sqrt(sum / double(areas.size()));
+    expectVolumes(written<vtkXMLStructuredGridWriter>(*sheet, "sheet.vts"), areas.size(),
+                  [&](std::size_t n) { return areas[n] * thick; });
+}
+
 // The fin's cells at its tip have no volume.
 TEST(VtkVolumes, OfABluntFin) {
     const Path path = tests::sharedData("bluntfin/bluntfin.vts");

@@ -152,6 +152,7 @@ std::optional<glm::dvec3> CurvilinearCells::stepAcrossSeam(std::uint64_t row, st
 // place is the sum of c[m] times those that are in m. The volume is the integral of the determinant
 // of its slopes, of which only squares leave anything.
 glm::dmat3 CurvilinearCells::sidesAt(const glm::vec<3, std::uint64_t>& at) const {
+    constexpr double kMostLonger = 8;  // of volumes; a pyramid has 4 / 3
     const auto& corners = places_.corners;
     std::array<glm::dvec3, 7> c{};
     for (unsigned corner = 0; corner < 8; ++corner) {
@@ -170,8 +171,11 @@ glm::dmat3 CurvilinearCells::sidesAt(const glm::vec<3, std::uint64_t>& at) const
     const double straight = volume(c[1], c[2], c[4]);
     const double bent =
         (volume(c[3], c[2], c[6]) + volume(c[1], c[3], c[5]) + volume(c[5], c[6], c[4])) / 3;
-    const double longer = straight == 0 ? 1 : 1 + bent / straight;
-    return (longer > 0 ? 2 * std::cbrt(longer) : 2) * glm::dmat3(c[1], c[2], c[4]);
+    // Where the sides span nothing, a sheet's or a flat cell's, a quotient would be of rounding.
+    const bool isThin = std::ranges::find(corners.size, 1u) != corners.size.end();
+    const double longer = isThin ? 1 : 1 + bent / straight;
+    const bool isCell = longer > 0 && longer < kMostLonger;
+    return (isCell ? 2 * std::cbrt(longer) : 2) * glm::dmat3(c[1], c[2], c[4]);
 }
 
 glm::dmat3 CurvilinearCells::stepsAt(std::uint64_t row) const {

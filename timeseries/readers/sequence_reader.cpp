@@ -175,18 +175,22 @@ void SequenceReader::add(std::size_t file, const Reader& reader) {
         if (!placeOf(other, variables_)) tellLeftOut(other.name);
 }
 
-// Where all have as many points, the last file tells whether they lie elsewhere, or its own steps
-// do: to hold each file's mesh against the first takes as long as to read some.
+// Where all have as many points, the files of the middle and the last step tell whether they lie
+// elsewhere, or their own steps do: to hold each file's mesh against the first takes as long as to
+// read some.
 StepGrids SequenceReader::stepGrids(std::size_t v) {
     if (gridsOf_) return gridsOf_(paths_, *variables_[v].grid);
     const std::size_t steps = variables_[v].time->points.size();
     const auto [least, most] = counts_[v];
     StepGrids grids{.are = StepGrids::Are::Own};
     if (least == most) {
-        const Member last = memberOf(v, steps - 1);
-        const Grid& its = *last.reader.variables()[last.variable].grid;
-        grids.are = std::max(last.reader.stepGrids(last.variable).are,
-                             heldAgainst(*variables_[v].grid, its));
+        grids.are = StepGrids::Are::One;
+        for (const std::size_t step : {steps / 2, steps - 1}) {
+            const Member member = memberOf(v, step);
+            const Grid& its = *member.reader.variables()[member.variable].grid;
+            grids.are = std::max({grids.are, member.reader.stepGrids(member.variable).are,
+                                  heldAgainst(*variables_[v].grid, its)});
+        }
     }
     // Further steps of a file may have more.
     if (steps == paths_.size()) grids.least = least, grids.most = most;

@@ -115,6 +115,22 @@ TEST(ClipByHandOnAGlobe, TheRayTakesTheFirstFaceThatItMeetsBeforeTheEarth) {
     EXPECT_FALSE(hand.holdAt(hand.looking(above, 2.0 * above - top)));
 }
 
+// One that is thinner than a hand is steady, in height, is met as any other.
+TEST(ClipByHandOnAGlobe, TheRayMeetsAThinBox) {
+    HandOnAGlobe hand(region());
+    Explorer next = hand.e.explorer();
+    next.clip = ClipBox{{-kNoEnd, -kNoEnd, 20}, {kNoEnd, kNoEnd, 20.001}};
+    hand.e.edit(next);
+    const glm::dvec3 above = hand.inStage({5, 50, 9000});
+    for (const double latitude : {35.0, 42.3, 50.0, 61.7}) {
+        const glm::dvec3 top = hand.inStage({5, latitude, 20.001});
+        const auto hold = hand.holdAt(hand.looking(above, top));
+        ASSERT_TRUE(hold) << latitude;
+        EXPECT_EQ(hold->face, (Face{2, 1})) << latitude;
+        EXPECT_LT(glm::distance(hold->at, top), 1e-6) << latitude;
+    }
+}
+
 TEST(ClipByHandOnAGlobe, AFaceHeldByTheRayGoesWithTheHand) {
     HandOnAGlobe hand(region());
     const glm::dvec3 top = hand.inStage({5, 50, 30}), above = hand.inStage({5, 50, 9000}),

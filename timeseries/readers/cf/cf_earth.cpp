@@ -60,10 +60,16 @@ struct Lattice {
     }
 };
 
+const NcVariable& coordinateIn(const CfFile& file, const std::string& name) {
+    const NcVariable* const found = file.header().find(name, "");
+    if (!found) file.fail("variable '" + name + "'", "expected it, as when the series was opened");
+    return *found;
+}
+
 void read(const CfFile& file, const NcVariable& variable, const Roles& roles,
           const EarthTold::Columns& names, Lattice& into) {
-    const NcVariable& lon = *file.header().find(names.longitude, "");
-    const NcVariable& lat = *file.header().find(names.latitude, "");
+    const NcVariable &lon = coordinateIn(file, names.longitude),
+                     &lat = coordinateIn(file, names.latitude);
     const TermValues x = termOf(file, lon, variable, roles, 0),
                      y = termOf(file, lat, variable, roles, 0);
     const double eastward = degreesIn(lon.text("units")), northward = degreesIn(lat.text("units"));
@@ -73,7 +79,7 @@ void read(const CfFile& file, const NcVariable& variable, const Roles& roles,
 }
 
 std::vector<double> coordinatesOf(const CfFile& file, const std::string& name) {
-    const NcVariable& coordinate = *file.header().find(name, "");
+    const NcVariable& coordinate = coordinateIn(file, name);
     std::vector<double> values = valuesOf(file, coordinate);
     for (double& value : values) value *= degreesIn(coordinate.text("units"));
     return values;

@@ -240,8 +240,10 @@ void CfReader::placeOnEarth(std::size_t v, Variable& variable, CfEarth& earth) {
     if (!found) return;
     const auto& [places, flaw] = earth.of(file, *found, first.roles, *first.axes.earth);
     if (!flaw.empty())
-        variable.notes.push_back("no globe by its 2-D longitudes and latitudes: " + flaw);
-    if (places) variable.grid = std::make_shared<const Grid>(variable.grid->withEarth(places));
+        variable.notes.push_back("no globe by its longitudes and latitudes: " + flaw);
+    if (places &&
+        places->count() == std::uint64_t{variable.grid->size()[0]} * variable.grid->size()[1])
+        variable.grid = std::make_shared<const Grid>(variable.grid->withEarth(places));
 }
 
 void CfReader::addVariable(std::size_t v, CfEarth& earth) {
