@@ -91,13 +91,14 @@ std::vector<ui::Shot> columnsOf(ui::Driver& desk, const app::panels::Rect& place
 }
 
 // From where the button is let go to the last change of the picture before it is still for a while,
-// that is, until all points are seen. Their error is told beside it, and later.
+// that is, until all points are seen. Their error is told beside it, and later. Meanwhile the
+// window is asked for an answer again and again, or left alone, for each answer takes a frame.
 struct Rests {
     std::vector<double> gaps, times;
 };
-Rests rests(ui::Driver& desk, const ui::Places& at) {
+Rests rests(ui::Driver& desk, const ui::Places& at, bool asks) {
     constexpr int kRests = 5, kMoves = 10;
-    constexpr std::chrono::milliseconds kQuiet{500};
+    constexpr std::chrono::milliseconds kQuiet{2000}, kBetween{2};
     // What is said of a point stands to the right of the pointer, and comes later.
     app::panels::Rect left = at.clear;
     left.max.x = at.clear.centre().x - 50;
@@ -114,7 +115,10 @@ Rests rests(ui::Driver& desk, const ui::Places& at) {
         desk.up();
         std::vector<ui::Shot> last;
         while (Clock::now() - changed < kQuiet) {
-            out.gaps.push_back(Milliseconds(desk.ping()).count());
+            if (asks)
+                out.gaps.push_back(Milliseconds(desk.ping()).count());
+            else
+                std::this_thread::sleep_for(kBetween);
             std::vector<ui::Shot> now = columnsOf(desk, left);
             if (now != last) changed = Clock::now();
             last = std::move(now);
@@ -192,9 +196,8 @@ void runResting(const ui::Screen& screen, const std::filesystem::path& home) {
         desk.waitForTitle(" points");
         const ui::Places at = ui::placesOf(desk.size(), false);
         desk.settled();
-        const Rests figures = rests(desk, at);
-        tell(gaps, figures.gaps);
-        tell(times, figures.times);
+        tell(gaps, rests(desk, at, true).gaps);
+        tell(times, rests(desk, at, false).times);
     };
     restBy("points", "between frames, a million points come to rest",
            "from a drag's end to all of a million points");

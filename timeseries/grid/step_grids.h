@@ -1,5 +1,5 @@
-// How the grids of a variable's steps are to each other, as far as a reader tells it without reading
-// all of them: of many files, by the first, one in the middle and the last.
+// How the grids of a variable's steps are to each other, as far as a reader tells it without
+// reading all of them: of many files, by the first, one in the middle and the last.
 #pragma once
 
 #include <cstdint>
