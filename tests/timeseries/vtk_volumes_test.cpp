@@ -309,7 +309,8 @@ TEST(VtkVolumes, OfASheetAreAsThickAsItsCellsAreWide) {
 // A curved one's cells are no parallelograms: their areas are those that their middle lines span.
 TEST(VtkVolumes, OfACurvedSheetAreItsCellsAreas) {
     const auto place = [](double i, double j, double) {
-        return glm::dvec3(i, j, std::sin(0.9 * i) * std::cos(0.7 * j + 0.2 * i));
+        return glm::dvec3(i + 0.2 * std::sin(1.1 * j + 0.3 * i), j + 0.15 * std::cos(0.8 * i),
+                          std::sin(0.9 * i) * std::cos(0.7 * j + 0.2 * i));
     };
     constexpr int kCells = 30;
     const auto sheet = structured({kCells + 1, kCells + 1, 1}, place);
