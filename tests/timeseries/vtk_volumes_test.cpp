@@ -331,29 +331,30 @@ TEST(VtkVolumes, OfACurvedSheetAreItsCellsAreas) {
                   [&](std::size_t n) { return areas[n] * thick; });
 }
 
+// The cells of a file as VTK has them, with values of our own.
+template <class Reader, class Grid>
+vtkNew<Grid> cellsOf(const Path& path) {
+    const vtkNew<Reader> vtk;
+    vtk->SetFileName(path.c_str());
+    vtk->Update();
+    vtkNew<Grid> grid;
+    grid->CopyStructure(vtk->GetOutput());
+    addValues(*grid);
+    return grid;
+}
+
 // The fin's cells at its tip have no volume.
 TEST(VtkVolumes, OfABluntFin) {
     const Path path = tests::sharedData("bluntfin/bluntfin.vts");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
-    const vtkNew<vtkXMLStructuredGridReader> vtk;
-    vtk->SetFileName(path.c_str());
-    vtk->Update();
-    const vtkNew<vtkStructuredGrid> grid;
-    grid->CopyStructure(vtk->GetOutput());
-    addValues(*grid);
-    expectTrilinear(*grid);
+    expectTrilinear(*cellsOf<vtkXMLStructuredGridReader, vtkStructuredGrid>(path));
 }
 
 // Crushed hexahedra with bent faces: VTK's two cuttings of these differ by 6 %.
 TEST(VtkVolumes, OfACrushedCan) {
     const Path path = tests::sharedData("can.vtu");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
-    const vtkNew<vtkXMLUnstructuredGridReader> vtk;
-    vtk->SetFileName(path.c_str());
-    vtk->Update();
-    const vtkNew<vtkUnstructuredGrid> grid;
-    grid->CopyStructure(vtk->GetOutput());
-    addValues(*grid);
+    const auto grid = cellsOf<vtkXMLUnstructuredGridReader, vtkUnstructuredGrid>(path);
     expectVolumes(written<vtkXMLUnstructuredGridWriter>(*grid, "can.vtu"), 4800,
                   [&](std::size_t i) {
                       return std::abs(tests::trilinearVolume(cornersOf(*grid, vtkIdType(i))));
@@ -364,11 +365,9 @@ TEST(VtkVolumes, OfACrushedCan) {
 TEST(VtkVolumes, OfABreakingDam) {
     const Path path = tests::sharedData("dambreak_amr/dambreak_010.vtu");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real data at " << path;
-    const vtkNew<vtkXMLUnstructuredGridReader> vtk;
-    vtk->SetFileName(path.c_str());
-    vtk->Update();
-    expectVolumes(path, std::size_t(vtk->GetOutput()->GetNumberOfCells()),
-                  [&](std::size_t i) { return volumeByVtk(*vtk->GetOutput(), vtkIdType(i)); });
+    const auto grid = cellsOf<vtkXMLUnstructuredGridReader, vtkUnstructuredGrid>(path);
+    expectVolumes(path, std::size_t(grid->GetNumberOfCells()),
+                  [&](std::size_t i) { return volumeByVtk(*grid, vtkIdType(i)); });
 }
 
 }  // namespace
