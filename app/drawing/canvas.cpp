@@ -236,7 +236,9 @@ void Canvas::State::tell(CanvasReport& report, const render::Scene& scene) const
             if (layer.byPoints) report.besideCells += render::pointCount(layer);
     }
     report.lacksCells = lacksCells(scene);
-    report.whole = rung.isWhole() && report.uploaded == 1 && !report.lacksCells;
+    report.lacksGradients = scene.cells && !scene.gradients &&
+                            needsGradients(screen->explorer, *screen->sorted, scene.placed);
+    report.whole = rung.isWhole() && report.uploaded == 1 && !report.lacks();
 }
 
 CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes,
@@ -321,7 +323,7 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
     }
     state_->tell(report, refinement.scene());
     // Until they are there nothing is left to refine.
-    report.refined = done && report.lacksCells ? 0 : refinement.share();
+    report.refined = done && report.lacks() ? 0 : refinement.share();
     report.whole = report.whole && done;
     if (done) resting.reset();
     return report;

@@ -18,10 +18,12 @@ struct CanvasReport {
     std::uint64_t besideCells = 0;            // and points of layers that have none of them
     // Of that step, under the choices on the screen; none before the first picture.
     std::optional<PointCounts> counts = {};
-    std::uint32_t stride = 1;  // one of so many points stands for its neighbours
-    int across = 1;            // so many of the picture's pixels lie across one that is drawn
-    bool whole = false;        // nothing is missing: all points or cells, pixels, all uploaded
-    bool lacksCells = false;   // points stand for the cells that were asked for
+    std::uint32_t stride = 1;     // one of so many points stands for its neighbours
+    int across = 1;               // so many of the picture's pixels lie across one that is drawn
+    bool whole = false;           // nothing is missing: all points or cells, pixels, all uploaded
+    bool lacksCells = false;      // points stand for the cells that were asked for
+    bool lacksGradients = false;  // by which light is to fall on tetrahedra
+    bool lacks() const { return lacksCells || lacksGradients; }
     bool told = true;     // its legend says whether its colours are mixed; else refine() finds out
     double uploaded = 1;  // share of what the picture asked for needs
     double refined = 0;   // share that refine() has drawn; it shows all at once

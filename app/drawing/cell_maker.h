@@ -1,4 +1,5 @@
-// Makes steps' cells where they are wanted.
+// Makes steps' cells where they are wanted, and the gradients by which light falls on those of a
+// mesh.
 #pragma once
 
 #include <atomic>

@@ -30,6 +30,7 @@ std::string limitText(const Performance& p) {
     if (!r.whole && r.stride > 1) return "a subset while it moves";
     if (!r.whole && r.across > 1) return "coarse pixels while it moves";
     if (r.lacksCells) return "points stand for cells";
+    if (r.lacksGradients) return "smoothing the light";
     if (!r.whole) return "a subset while it moves";
     if (p.frame > p.budget) return "all of it drawn";
     return "";

@@ -56,7 +56,16 @@ bool isSheet(const timeseries::Grid& grid) {
     return (!mesh || mesh->hasNeighbours()) && std::ranges::count(grid.size(), 1u) > 0;
 }
 
+// Cells, if they are drawn.
+bool isLit(const Explorer& e, const timeseries::Grid& grid) {
+    return e.light != render::Light::Off && e.order == render::Order::BackToFront && !isSheet(grid);
+}
+
 }  // namespace
+
+bool needsGradients(const Explorer& e, const SortedStep& step, const render::PlacedPoints& placed) {
+    return placed.isMesh() && isLit(e, step.grid()) && needsCells(e, step, placed);
+}
 
 bool needsCells(const Explorer& e, const SortedStep& step, const render::PlacedPoints& placed) {
     return modelOf(e) == Model::Cells && step.canHaveCells() &&
@@ -76,8 +85,10 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
         const auto needed = cellsNeeded(e, step.type());
         scene.cells = await == Await::Cells ? step.cells(needed) : step.cellsIfMade(needed);
     }
-    if (scene.cells && scene.order == render::Order::BackToFront && !isSheet(step.grid()))
-        scene.light = e.light;
+    if (scene.cells && isLit(e, step.grid())) scene.light = e.light;
+    if (scene.cells && needsGradients(e, step, placed))
+        scene.gradients = await == Await::Cells ? step.gradients(placed.mesh())
+                                                : step.gradientsIfMade(placed.mesh());
     if (e.lamp) scene.lamp = directionOf(e.lamp->azimuthDegrees, e.lamp->elevationDegrees);
     scene.opacityPer = e.opacityPer;
     for (const LayerChoice& layer : e.layers) {

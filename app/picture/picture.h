@@ -31,7 +31,12 @@ std::vector<timeseries::Interval<double>> cellsNeeded(const Explorer& explorer,
 bool needsCells(const Explorer& explorer, const timeseries::SortedStep& step,
                 const render::PlacedPoints& placed);
 
-// Who does not wait for a step's cells draws points until they are there.
+// And whether light falls on them by the gradients of a mesh's points.
+bool needsGradients(const Explorer& explorer, const timeseries::SortedStep& step,
+                    const render::PlacedPoints& placed);
+
+// Who does not wait for a step's cells draws points until they are there, and tetrahedra in their
+// own light until there are gradients.
 enum class Await { Cells, Nothing };
 
 // One step as the explorer wants it drawn. REQUIRES: a resolved explorer; `tick` of its sweep, if

@@ -1,8 +1,8 @@
 // Light on an interval volume that is drawn cell by cell: a lamp at the eye, or far away in the
 // world, and surfaces that look alike from both sides. Where the field hardly changes, its gradient
-// says nothing of a surface, and what is there is lit evenly instead. The gradient of cells is that
-// of points, by central differences, trilinear between them (render/splat/cell_slopes.h); of
-// tetrahedra their own.
+// says nothing of a surface, and what is there is lit evenly instead. The gradient is that of
+// points: of cells by central differences, trilinear between them (render/splat/cell_slopes.h); of
+// tetrahedra linear between those of timeseries/index/point_gradients.h.
 #pragma once
 
 #include <algorithm>

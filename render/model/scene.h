@@ -16,6 +16,7 @@
 #include "render/points/placed_points.h"
 #include "render/points/subset.h"
 #include "timeseries/index/cell_index.h"
+#include "timeseries/index/point_gradients.h"
 #include "timeseries/index/sorted_step.h"
 
 namespace render {
@@ -122,6 +123,9 @@ struct Scene {
     // by points all the same; of both all then, always.
     std::shared_ptr<const timeseries::CellIndex> cells = {};
     Light light = Light::Off;  // on cells, where they are drawn in order
+    // The step's on the mesh of the placed points, where light falls on the cells of one; null:
+    // each tetrahedron is lit by its own gradient, which has an edge at every face.
+    std::shared_ptr<const timeseries::PointGradients> gradients = {};
     Lamp lamp = {};
     OpacityPer opacityPer = OpacityPer::Length;
 };

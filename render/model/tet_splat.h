@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -34,6 +35,8 @@ struct ValuedTet {
     std::array<double, 4> values;
     double lo, hi;
     OpacityPer per = OpacityPer::Length;
+    // Of the field at the corners, by which light falls on it; null: its own everywhere.
+    const std::array<glm::dvec3, 4>* gradients = nullptr;
 };
 
 // Of the cube of its longest edge: a flatter one holds nothing, and its shares are no numbers.
@@ -100,6 +103,19 @@ bool seeField(TetSplat<Real>& s, const ValuedTet& tet, double low, double high,
     }
     s.steepness = glm::length(s.gradient);
     return cell::seeRange(s, tet, low, high, s.steepness * unitLength);
+}
+
+// The gradients of f at the corners by which light falls on it, as ValuedTet has the field's.
+template <typename Real>
+std::array<glm::dvec3, 4> gradientsOf(const TetSplat<Real>& s,
+                                      const std::array<glm::dvec3, 4>* ofField) {
+    constexpr double kMost = 1e15;  // its square is a float
+    std::array<glm::dvec3, 4> of{};
+    if (!(s.extent > 0)) return of;
+    for (std::size_t i = 0; i < 4; ++i)
+        of[i] = glm::clamp(ofField ? (*ofField)[i] / s.extent : s.gradient, glm::dvec3(-kMost),
+                           glm::dvec3(kMost));
+    return of;
 }
 
 }  // namespace tet

@@ -84,7 +84,7 @@ std::optional<Picked> pickTet(const Scene& scene, const View& view, const glm::d
     const PassedTet& at = passed[half->at];
     const PartOnRay& part = at.passed.part;
     std::uint64_t nearest = 0;
-    withTets(scene.placed, scene.cells->field(), scene.clip,
+    withTets(scene, scene.cells->field(),
              [&](const auto& tets) { nearest = tets.pointOf(at.passed.cell, at.nearest); });
     return Picked{.layer = at.passed.layer,
                   .gridIndex = nearest,

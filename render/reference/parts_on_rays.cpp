@@ -62,7 +62,8 @@ PartInLayer partInLayer(const Scene& scene, std::size_t layer, std::uint32_t cel
             cell,
             part,
             opticalDepthPerWeight(of.style.opacity) * weight,
-            {}};
+            {},
+            0};
 }
 
 CellRays::CellRays(const Scene& scene, const timeseries::FieldSlab& slab, const View& view)
@@ -136,6 +137,12 @@ void orderAlongRay(std::vector<PartInLayer>& parts) {
     std::ranges::stable_sort(parts, {}, [](const PartInLayer& p) { return p.part.from; });
 }
 
+Shade LightOfParts::shadeAt(const PartInLayer& part, double share) const {
+    if (lit_ == nullptr) return {};
+    return shadeOf(lit_->light, lit_->lamp, glm::mix(part.gradients[0], part.gradients[1], share),
+                   way_, part.steepness);
+}
+
 glm::dvec4 LightOfParts::inOrder(std::span<const PartInLayer> parts) {
     ends_.clear();
     for (const PartInLayer& each : parts) {
@@ -166,12 +173,13 @@ void LightOfParts::passOpen(double from, double to) {
         in_.push_back(each->layer);
         depths_.push_back(each->opticalDepth * (to - from) / (each->part.to - each->part.from));
     }
+    const auto shareOf = [&](std::size_t i, double share) {
+        return shareAt(open_[i]->part, std::lerp(from, to, share));
+    };
     light_.pass(
         in_, depths_,
-        [&](std::size_t i, double share) {
-            return valueOn(open_[i]->part, shareAt(open_[i]->part, std::lerp(from, to, share)));
-        },
-        [&](std::size_t i, double) { return open_[i]->shade; });
+        [&](std::size_t i, double share) { return valueOn(open_[i]->part, shareOf(i, share)); },
+        [&](std::size_t i, double share) { return shadeAt(*open_[i], shareOf(i, share)); });
 }
 
 glm::dvec4 LightOfParts::oneByOne(std::span<const PartInLayer> parts) {
@@ -181,7 +189,7 @@ glm::dvec4 LightOfParts::oneByOne(std::span<const PartInLayer> parts) {
         light_.pass(
             std::span(&layer, 1), std::span(&each.opticalDepth, 1),
             [&](std::size_t, double share) { return valueOn(each.part, share); },
-            [&](std::size_t, double) { return each.shade; });
+            [&](std::size_t, double share) { return shadeAt(each, share); });
     }
     return light_.light();
 }
@@ -192,10 +200,12 @@ glm::dvec4 LightOfParts::mixed(std::span<const PartInLayer> parts) const {
     glm::dvec3 rgb(0);
     for (const PartInLayer& each : parts) {
         depth += each.opticalDepth;
-        for (int step = 0; step < kSteps; ++step)
+        for (int step = 0; step < kSteps; ++step) {
+            const double share = (step + 0.5) / kSteps;
             rgb += each.opticalDepth / kSteps *
-                   each.shade.of(colorOf(layers_[each.layer].style,
-                                         valueOn(each.part, (step + 0.5) / kSteps)));
+                   shadeAt(each, share)
+                       .of(colorOf(layers_[each.layer].style, valueOn(each.part, share)));
+        }
     }
     const double taken = -std::expm1(-depth);
     return depth > 0 ? glm::dvec4(taken / depth * rgb, taken) : glm::dvec4(0);

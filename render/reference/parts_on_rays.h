@@ -2,6 +2,7 @@
 // part by part: for those who ask where on a ray something is, and what order does to its light.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -24,7 +25,10 @@ struct PartInLayer {
     std::uint32_t cell = 0;  // as CellIndex numbers them
     PartOnRay part{};
     double opticalDepth = 0;
-    Shade shade = {};  // what light makes of its colours; nothing, where nobody asks for light
+    // Of its field in the world where it begins and ends, and what these are measured against
+    // (render/model/light.h); nothing where nobody asks for light.
+    std::array<glm::dvec3, 2> gradients = {};
+    double steepness = 0;
 };
 // Of a way of so many units of l a unit of view depth; its W is as the scene's opacityPer has it.
 PartInLayer partInLayer(const Scene& scene, std::size_t layer, std::uint32_t cell,
@@ -64,8 +68,12 @@ void orderAlongRay(std::vector<PartInLayer>& parts);
 // The light of one ray's parts: premultiplied, linear.
 class LightOfParts {
  public:
-    // The layers outlive this.
+    // The layers outlive this. Their colours as they are.
     explicit LightOfParts(std::span<const Layer> layers) : layers_(layers), light_(layers) {}
+    // As the scene's light falls on them, which outlives this, on rays that go `way` in the world.
+    explicit LightOfParts(const Scene& scene)
+        : layers_(scene.layers), light_(scene.layers), lit_(&scene) {}
+    void setWay(const glm::dvec3& way) { way_ = way; }
 
     // Emission and absorption from the eye on; where parts lie over each other, of all of them at
     // once. REQUIRES: parts by where they begin.
@@ -77,9 +85,12 @@ class LightOfParts {
 
  private:
     void passOpen(double from, double to);
+    Shade shadeAt(const PartInLayer& part, double share) const;
 
     std::span<const Layer> layers_;
     LightOnRay light_;
+    const Scene* lit_ = nullptr;
+    glm::dvec3 way_{0};
     std::vector<double> ends_, depths_;
     std::vector<const PartInLayer*> open_;
     std::vector<std::size_t> in_;

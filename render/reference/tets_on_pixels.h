@@ -81,7 +81,7 @@ inline constexpr std::size_t kCellParts = 16;
 template <typename Use>
 void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const PointsView& view,
                       const PixelBins& pixels, unsigned threads, const Use& use) {
-    withTets(scene.placed, field, scene.clip, [&](const auto& tets) {
+    withTets(scene, field, [&](const auto& tets) {
         const ReachBox reachBox(view, tets.reach());
         const auto touches = [](double lo, double hi, const Layer& layer) {
             return std::ranges::any_of(layer.cells.ranges, [&](const auto& range) {

@@ -30,12 +30,7 @@ vec3 slopesAt(vec3 at) {
 vec3 lit(vec3 color, vec3 at, vec3 along, float rayLength, float ofRay) {
     if (view.squares.w == 0.0) return color;
     const vec3 g = slopesAt(at);
-    const float change = dot(g, along / perSize.xyz);
-    const float g2 = dot(view.squares.xyz, g * g) +
-                     dot(view.products.xyz, vec3(g.x * g.y, g.x * g.z, g.y * g.z));
-    const float per = inversesqrt(max(g2, 1e-30));
-    return lit(color, min(1.0, abs(change) * per / rayLength), 1.0 / (1.0 + atAndSteep.w * per),
-               dot(g, view.lamp.xyz) * per, change, ofRay);
+    return litBy(color, g, dot(g, along / perSize.xyz), atAndSteep.w, rayLength, ofRay);
 }
 #endif
 
@@ -107,15 +102,8 @@ void main() {
     const float met = abs(last - first);
     const float seen = seenTo(front, back, depthOfLight, perWeight * max(whole, met * range.z), met);
     const float rayLength = view.depths.z * longer;
-    // The middle of what lies in the range, as if the field were linear along the ray.
-    float inRange = 0.0;
-    if (crossesLeast() || crossesMost()) {
-        const float per = 1.0 / (change < 0.0 ? min(change, -1e-12) : max(change, 1e-12));
-        const vec2 ends = clamp((vec2(crossesLeast() ? range.x : -2.0, crossesMost() ? range.y : 2.0) - value) * per,
-                                -halfWay, halfWay);
-        inRange = 0.5 * (ends.x + ends.y);
-    }
-    sum = vec4(lit(colorBetween(front, seen), m + inRange * d, d, rayLength,
+    const vec3 place = m + inRange(value, change, halfWay) * d;
+    sum = vec4(lit(colorBetween(front, seen), place, d, rayLength,
                    lampOfRay(offset, rayLength)) * alpha, alpha);
 #endif
 }

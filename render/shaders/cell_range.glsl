@@ -127,6 +127,23 @@ vec3 lit(vec3 color, float facing, float certainty, float ofGradient, float chan
         view.squares.w > 1.0 ? certainty * kSpecular * pow(between, 30.0) * low : 0.0;
     return color * diffuse + specular;
 }
+// Of a gradient along the axes, which is `change` along a ray, measured against a steepness.
+vec3 litBy(vec3 color, vec3 g, float change, float steep, float rayLength, float ofRay) {
+    const float g2 = dot(view.squares.xyz, g * g) +
+                     dot(view.products.xyz, vec3(g.x * g.y, g.x * g.z, g.y * g.z));
+    const float per = inversesqrt(max(g2, 1e-30));
+    return lit(color, min(1.0, abs(change) * per / rayLength), 1.0 / (1.0 + steep * per),
+               dot(g, view.lamp.xyz) * per, change, ofRay);
+}
+// From the middle of a ray's way, where the field has that value and changes so, to the middle of what
+// lies in the range, as if it were linear along the ray.
+float inRange(float value, float change, float halfWay) {
+    if (!crossesLeast() && !crossesMost()) return 0.0;
+    const float per = 1.0 / (change < 0.0 ? min(change, -1e-12) : max(change, 1e-12));
+    const vec2 ends = clamp((vec2(crossesLeast() ? range.x : -2.0, crossesMost() ? range.y : 2.0) - value) * per,
+                            -halfWay, halfWay);
+    return 0.5 * (ends.x + ends.y);
+}
 #endif
 
 // Of this pixel: how far from the centre, and how much longer its ray is than the view axis'.

@@ -7,7 +7,23 @@ layout(location = 5) flat in vec4 ray;
 layout(location = 6) flat in vec4 right;
 layout(location = 7) flat in vec4 up;
 layout(location = 8) flat in vec4 field;
-layout(location = 9) flat in vec3 light;
+layout(location = 9) flat in float steep;
+layout(location = 10) flat in uint piece;
+
+#ifdef OVER
+// C++: GlTetSlopes in render/splat/gl_tets.h.
+layout(std430, binding = 2) readonly buffer Slopes { vec4 slopes[]; };
+
+// What light makes of a colour where the corners have these shares.
+vec3 lit(vec3 color, vec4 shares, vec2 offset, float rayLength) {
+    if (view.squares.w == 0.0) return color;
+    const vec3 g = vec3(dot(slopes[3u * piece], shares), dot(slopes[3u * piece + 1u], shares),
+                        dot(slopes[3u * piece + 2u], shares));
+    const vec2 pixel = offset + centreAndBase.xy;
+    const vec3 way = view.rayAxis.xyz + pixel.x * view.perPixelX.xyz + pixel.y * view.perPixelY.xyz;
+    return litBy(color, g, dot(g, way), steep, rayLength, lampOfRay(offset, rayLength));
+}
+#endif
 
 void main() {
     const vec2 offset = offsetOfPixel();
@@ -48,11 +64,9 @@ void main() {
     sum = vec4(colorBetween(front, back) * w, w);
 #else
     const float perWeight = layers.style[kind.y].w, depthOfLight = perWeight * w, alpha = opacity(depthOfLight);
-    vec3 color = colorBetween(front, seenTo(front, back, depthOfLight, perWeight * most, met));
-    const float rayLength = view.depths.z * longer;
-    if (view.squares.w > 0.0)
-        color = lit(color, min(1.0, abs(change) * light.x / rayLength), light.y, light.z, change,
-                    lampOfRay(offset, rayLength));
-    sum = vec4(color * alpha, alpha);
+    const vec3 color = colorBetween(front, seenTo(front, back, depthOfLight, perWeight * most, met));
+    const float halfWay = 0.5 * (to - from), depth = 0.5 * (from + to);
+    const float place = depth + inRange(value + depth * change, change, halfWay);
+    sum = vec4(lit(color, at + base * shift + place * along, offset, view.depths.z * longer) * alpha, alpha);
 #endif
 }

@@ -18,8 +18,8 @@ layout(location = 5) flat out vec4 ray;
 layout(location = 6) flat out vec4 right;
 layout(location = 7) flat out vec4 up;
 layout(location = 8) flat out vec4 field;
-// Per steepness of f; how certain a surface is; the gradient direction's part of the way to the lamp.
-layout(location = 9) flat out vec3 light;
+layout(location = 9) flat out float steep;
+layout(location = 10) flat out uint piece;
 
 vec4 along(vec3 way, vec3 slopes[3]) {
     const vec3 of = vec3(dot(slopes[0], way), dot(slopes[1], way), dot(slopes[2], way));
@@ -27,7 +27,8 @@ vec4 along(vec3 way, vec3 slopes[3]) {
 }
 
 void main() {
-    const Piece p = pieces[pieceOfVertex()];
+    piece = pieceOfVertex();
+    const Piece p = pieces[piece];
     const vec3 first = p.corners[0].xyz, a = p.corners[1].xyz, b = p.corners[2].xyz, c = p.corners[3].xyz;
     const vec4 f = vec4(p.corners[0].w, p.corners[1].w, p.corners[2].w, p.corners[3].w);
     const vec3 bc = cross(b, c);
@@ -78,9 +79,6 @@ void main() {
     const vec2 back = flatness / (longest * dot(direction, direction)) * vec2(dot(direction, right), dot(direction, up));
     centreAndBase = vec4(centre, base, length(field.zw - field.y * back));
     range = vec4(p.least, p.most, p.perRange, widestRamp(p.least, p.most, kind.x, flatness));
-    const vec3 gradient = f.y * slopes[0] + f.z * slopes[1] + f.w * slopes[2] -
-                          f.x * (slopes[0] + slopes[1] + slopes[2]);
-    const float per = 1.0 / max(length(gradient), 1e-30);
-    light = vec3(per, 1.0 / (1.0 + p.steep * per), dot(gradient, view.lamp.xyz) * per);
+    steep = p.steep;
     putAt(lo, hi);
 }

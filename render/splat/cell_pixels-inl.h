@@ -127,14 +127,15 @@ HWY_INLINE void light(Lanes lanes, const CellView& view, const TileRoom& room,
                       typename SeenBlocks<Lanes>::Block& block) {
     constexpr PixelBlock<Lanes, kTileStride> pixels;
     const SeenCell& c = *block.cell;
-    const LightLanes<Lanes> lit(lanes, view, c);
+    const LightLanes<Lanes> lit(lanes, view, c.steep);
     RayParts<Lanes> r = raysOf(lanes, block);
-    hn::Vec<Lanes> place = r.depth, diffuse, specular;
+    hn::Vec<Lanes> place = r.depth, gradient[3], diffuse, specular;
     if (c.crossesLeast() || c.crossesMost())
         place = hn::Add(place, inRange(lanes, c, hn::Load(lanes, block.value),
                                        hn::Load(lanes, block.change), r.length));
     for (std::size_t a = 0; a < 3; ++a) r.middle[a] = hn::MulAdd(place, r.along[a], r.middle[a]);
-    lit.template shade<kLit>(view, c, *block.slopes, r,
+    const auto change = slopesAt(lanes, c, *block.slopes, r, gradient);
+    lit.template shade<kLit>(view, gradient, change, r.along, c.perSize,
                              pixels.load(lanes, room.factor.data() + block.at), diffuse, specular);
     hn::Store(diffuse, lanes, block.diffuse);
     hn::Store(specular, lanes, block.specular);

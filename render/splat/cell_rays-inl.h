@@ -144,7 +144,7 @@ struct CellLanes {
 // From the middle of a ray's way, where the field has that value and changes so, to the middle of
 // what lies in the range, as if it were linear along the ray.
 template <class Lanes, class V = hn::Vec<Lanes>>
-HWY_INLINE V inRange(Lanes lanes, const SeenCell& c, V value, V change, V length) {
+HWY_INLINE V inRange(Lanes lanes, const SeenPiece& c, V value, V change, V length) {
     constexpr float kBeyond = 2;  // more than f can be
     const V half = hn::Set(lanes, 0.5f), reach = hn::Mul(half, length);
     const V least = hn::Set(lanes, 1e-12f);
@@ -160,36 +160,28 @@ HWY_INLINE V inRange(Lanes lanes, const SeenCell& c, V value, V change, V length
 // Where light comes from, if there is some.
 enum class Lit { No, FromEye, FromLamp };
 
-// What light makes of a colour. At pixels whose rays are `factor` times as long as the view axis'.
+// What light makes of a colour where the field has a gradient. At pixels whose rays are `factor`
+// times as long as the view axis'.
 template <class Lanes>
 struct LightLanes {
     using V = hn::Vec<Lanes>;
     Lanes lanes;
-    V perSize[3], metric[6], steep, perUnit;
+    V metric[6], steep, perUnit;
     Light light;
-    LightLanes(Lanes l, const CellView& view, const SeenCell& c)
+    LightLanes(Lanes l, const CellView& view, float steepness)
         : lanes(l),
-          steep(hn::Set(l, c.steep)),
+          steep(hn::Set(l, steepness)),
           perUnit(hn::Set(l, 1 / view.rayLength)),
           light(view.light) {
-        for (std::size_t a = 0; a < 3; ++a) perSize[a] = hn::Set(l, c.perSize[a]);
         for (std::size_t k = 0; k < 6; ++k) metric[k] = hn::Set(l, view.metric[k]);
     }
+    // Of a gradient along the axes, which is `change` along a ray that goes on so, in units of
+    // which an axis has `perAxis`.
     template <Lit kLit>
-    HWY_INLINE void shade(const CellView& view, const SeenCell& c, const CellSlopes& slopes,
-                          const RayParts<Lanes>& r, V factor, V& diffuse, V& specular) const {
+    HWY_INLINE void shade(const CellView& view, const V* g, V change, const V* way,
+                          const std::array<float, 3>& perAxis, V factor, V& diffuse,
+                          V& specular) const {
         const V one = hn::Set(lanes, 1.0f), tiny = hn::Set(lanes, 1e-30f);
-        const V* const m = r.middle;
-        V g[3], change = hn::Zero(lanes);
-        for (std::size_t a = 0; a < 3; ++a) {
-            const auto f = [&](std::size_t k) HWY_ATTR { return hn::Set(lanes, slopes[a][k]); };
-            const auto inZ = [&](std::size_t low, std::size_t high)
-                                 HWY_ATTR { return hn::MulAdd(f(high), m[2], f(low)); };
-            const V ofX = hn::MulAdd(inZ(4, 7), m[1], inZ(1, 5));
-            const V sum = hn::MulAdd(ofX, m[0], hn::MulAdd(inZ(2, 6), m[1], inZ(0, 3)));
-            change = hn::MulAdd(sum, r.along[a], change);
-            g[a] = hn::Mul(sum, perSize[a]);
-        }
         V g2 = hn::Mul(hn::Mul(metric[0], g[0]), g[0]);
         g2 = hn::MulAdd(hn::Mul(metric[1], g[1]), g[1], g2);
         g2 = hn::MulAdd(hn::Mul(metric[2], g[2]), g[2], g2);
@@ -207,14 +199,32 @@ struct LightLanes {
             for (int a = 0; a < 3; ++a) {
                 const auto axis = static_cast<std::size_t>(a);
                 ofGradient = hn::MulAdd(hn::Set(lanes, view.lamp->ofGradient[a]), g[a], ofGradient);
-                ofRay = hn::MulAdd(hn::Set(lanes, view.lamp->ofWay[a] / c.perSize[axis]),
-                                   r.along[a], ofRay);
+                ofRay =
+                    hn::MulAdd(hn::Set(lanes, view.lamp->ofWay[a] / perAxis[axis]), way[a], ofRay);
             }
             lampLightOf(lanes, light, certainty, hn::Mul(ofGradient, per), facing, change,
                         hn::Mul(ofRay, perLength), diffuse, specular);
         }
     }
 };
+
+// The gradient by which light falls on a cell, at a place of it.
+template <class Lanes, class V = hn::Vec<Lanes>>
+HWY_INLINE V slopesAt(Lanes lanes, const SeenCell& c, const CellSlopes& slopes,
+                      const RayParts<Lanes>& r, V* g) {
+    const V* const m = r.middle;
+    V change = hn::Zero(lanes);
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto f = [&](std::size_t k) HWY_ATTR { return hn::Set(lanes, slopes[a][k]); };
+        const auto inZ = [&](std::size_t low, std::size_t high)
+                             HWY_ATTR { return hn::MulAdd(f(high), m[2], f(low)); };
+        const V ofX = hn::MulAdd(inZ(4, 7), m[1], inZ(1, 5));
+        const V sum = hn::MulAdd(ofX, m[0], hn::MulAdd(inZ(2, 6), m[1], inZ(0, 3)));
+        change = hn::MulAdd(sum, r.along[a], change);
+        g[a] = hn::Mul(sum, hn::Set(lanes, c.perSize[a]));
+    }
+    return change;
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace render

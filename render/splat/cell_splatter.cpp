@@ -28,7 +28,7 @@ constexpr std::size_t kCellsWorthAThread = 1 << 9;
 struct CellMemory::Seen {
     timeseries::PageVector<SeenCell> cells;
     timeseries::PageVector<CellSlopes> slopes;  // of each, where light falls on them
-    std::vector<SeenTet> tets;                  // of a mesh, instead of these
+    SeenTets tets;                              // of a mesh, instead of these
     PieceBatch pieces;
     std::vector<TileSpan> spans;
     TileBins bins;
@@ -38,7 +38,7 @@ struct CellMemory::Seen {
               std::span<const CellOfLayer> part);
     void sum(const CellView& view, std::size_t tile, TileRoom& room) const {
         const auto which = std::span(binned).subspan(bins.first(tile), bins.count(tile));
-        if (tets.empty())
+        if (tets.tets.empty())
             sumCells(view, cells, slopes, which, room);
         else
             sumTets(view, tets, which, room);
@@ -55,10 +55,8 @@ void CellMemory::Seen::look(const Scene& scene, const CellView& view, const Cell
         const bool isOrdered = view.channels == Channels::Over;
         forEachTet(scene, part, isOrdered ? &view.seen.rays.eye : nullptr,
                    [&](const ValuedTet& tet, const CellOfLayer& of) {
-                       const auto seen = seenTet(view, tet, of.layer, scene.layers[of.layer].style);
-                       if (!seen) return;
-                       tets.push_back(*seen);
-                       spans.push_back(spanOf(view, *seen));
+                       if (tets.add(view, tet, of.layer, scene.layers[of.layer].style))
+                           spans.push_back(spanOf(view, tets.tets.back()));
                    });
     } else {
         batches.forEach(part, pieces, [&] {

@@ -118,7 +118,7 @@ void takeTints(SeenPiece& c, const CellView& view, std::size_t layer, const Rang
 }
 
 std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,
-                               const RangeStyle& style) {
+                               const RangeStyle& style, TetSlopes& slopes) {
     SeenTet c{};
     const TetSplat<float> s = tetSplatAt<float>(view.seen, tet);
     if (!takePixels(c, view, s)) return std::nullopt;
@@ -134,15 +134,33 @@ std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::
     c.fUp = s.fY;
     c.across = s.across;
     c.widest = s.widest;
-    const double steepness = std::max(s.steepness, 1e-30);
-    c.perSteepness = static_cast<float>(1 / steepness);
-    c.certainty = static_cast<float>(
-        1 / (1 + static_cast<double>(steepnessIn(s.extent, view.steep)) / steepness));
-    if (!view.lamp) return c;
-    c.towards =
-        static_cast<float>(glm::dot(s.gradient, glm::dvec3(view.lamp->ofGradient)) / steepness);
-    c.ofRay = glm::dot(view.lamp->ofWay, glm::vec3(view.seen.rays.along(s.centre)));
+    if (view.light == Light::Off) return c;
+    const std::array<glm::dvec3, 4> gradients = tet::gradientsOf(s, tet.gradients);
+    const glm::vec3 way(view.seen.rays.along(s.centre));
+    for (int a = 0; a < 3; ++a) {
+        const auto axis = static_cast<std::size_t>(a);
+        TetSlopes::Along& along = slopes.along[axis] = {};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto slope = static_cast<float>(gradients[i][a]);
+            along.at += slope * s.at[i];
+            along.ray += slope * s.ray[i];
+            along.right += slope * s.x[i];
+            along.up += slope * s.y[i];
+        }
+        slopes.way[axis] = way[a];
+    }
+    slopes.steep = steepnessIn(s.extent, view.steep);
     return c;
+}
+
+bool SeenTets::add(const CellView& view, const ValuedTet& tet, std::size_t layer,
+                   const RangeStyle& style) {
+    TetSlopes lit;
+    const auto seen = seenTet(view, tet, layer, style, lit);
+    if (!seen) return false;
+    tets.push_back(*seen);
+    if (view.light != Light::Off) slopes.push_back(lit);
+    return true;
 }
 
 }  // namespace render

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "render/model/cell_splat.h"
 #include "render/model/light.h"
@@ -105,12 +106,32 @@ struct SeenTet : SeenPiece {
     std::array<float, 4> at, ray, right, up;  // the corners' shares
     float f, fRay, fRight, fUp, across;       // of a pixel, a unit of depth away
     float widest;                             // ramp
-    float perSteepness, certainty;            // of light
-    // Of a lamp in the world: its direction's part of the gradient's, and of the ray at the centre.
-    float towards, ofRay;
 };
-// None where the view does not see it.
+// The gradient of f by which light falls on it.
+struct alignas(64) TetSlopes {
+    // As the shares: f a unit along each axis.
+    struct Along {
+        float at, ray, right, up;
+    };
+    std::array<Along, 3> along;
+    std::array<float, 3> way;  // along the axes, of the ray at the centre, a unit of depth
+    float steep;               // CellView::steep as the gradient of f
+};
+// None where the view does not see it. Where light falls on it, `slopes` are its.
 std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::size_t layer,
-                               const RangeStyle& style);
+                               const RangeStyle& style, TetSlopes& slopes);
+
+// Tetrahedra in a view, in the order in which they come.
+struct SeenTets {
+    std::vector<SeenTet> tets;
+    std::vector<TetSlopes> slopes;  // of each, where light falls on them
+    void clear() {
+        tets.clear();
+        slopes.clear();
+    }
+    // False where the view does not see it.
+    bool add(const CellView& view, const ValuedTet& tet, std::size_t layer,
+             const RangeStyle& style);
+};
 
 }  // namespace render

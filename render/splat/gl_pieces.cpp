@@ -55,7 +55,10 @@ std::uint64_t GlPieces::bytesOf(const Scene& scene) {
 }
 
 GlPieces::GlPieces(const Scene& scene)
-    : index_(scene.cells), mesh_(scene.placed.mesh()), choices_(choicesOf(scene)) {}
+    : index_(scene.cells),
+      mesh_(scene.placed.mesh()),
+      gradients_(scene.gradients),
+      choices_(choicesOf(scene)) {}
 
 void GlPieces::take(std::unique_ptr<gl::Buffer> pieces, std::vector<std::uint32_t> firsts) {
     pieces_ = std::move(pieces);
@@ -64,7 +67,7 @@ void GlPieces::take(std::unique_ptr<gl::Buffer> pieces, std::vector<std::uint32_
 
 bool GlPieces::areOf(const Scene& scene) const {
     return index_.lock() == scene.cells && mesh_.lock() == scene.placed.mesh() &&
-           choices_ == choicesOf(scene);
+           gradients_.lock() == scene.gradients && choices_ == choicesOf(scene);
 }
 
 std::uint64_t GlPieces::bytes() const {

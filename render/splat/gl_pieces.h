@@ -39,7 +39,7 @@ class GlPieces {
     bool areOf(const Scene& scene) const;
 
     const gl::Buffer& pieces() const { return *pieces_; }  // layer by layer
-    // CellSlopes of each, where light falls on cells; else null.
+    // CellSlopes of each, or GlTetSlopes, where light falls on them; else null.
     virtual const gl::Buffer* slopes() const { return nullptr; }
     // Places in pieces() that a plane takes.
     std::pair<std::uint32_t, std::uint32_t> placesOf(Channels channels, std::size_t layer) const;
@@ -64,6 +64,7 @@ class GlPieces {
 
     std::weak_ptr<const timeseries::CellIndex> index_;
     std::weak_ptr<const timeseries::Mesh> mesh_;
+    std::weak_ptr<const timeseries::PointGradients> gradients_;
     std::vector<double> choices_;  // all else that they depend on
     std::unique_ptr<gl::Buffer> pieces_;
     std::vector<std::uint32_t> firsts_;  // of each layer, and the end

@@ -18,8 +18,8 @@ namespace {
 constexpr double kSixAboutADiagonal = 6;
 
 // False where it takes nothing of the range.
-bool takeTet(GlTet& t, const ValuedTet& tet, const CellOfLayer& of, const Scene& scene,
-             double steep) {
+bool takeTet(GlTet& t, GlTetSlopes& slopes, const ValuedTet& tet, const CellOfLayer& of,
+             const Scene& scene, double steep) {
     const auto [low, high] = std::minmax_element(tet.values.begin(), tet.values.end());
     if (!cell::touches(*low, *high, tet.lo, tet.hi) || isFlat(tet.at, turnOf(tet.at))) return false;
     TetSplat<float> s;
@@ -36,6 +36,10 @@ bool takeTet(GlTet& t, const ValuedTet& tet, const CellOfLayer& of, const Scene&
     t.kind = static_cast<std::uint32_t>(s.crossesLeast) << 4 |
              static_cast<std::uint32_t>(s.crossesMost) << 5 | std::uint32_t{of.layer} << 8;
     t.cell = of.cell;
+    const std::array<glm::dvec3, 4> gradients = tet::gradientsOf(s, tet.gradients);
+    for (int a = 0; a < 3; ++a)
+        slopes[static_cast<std::size_t>(a)] = glm::vec4(
+            glm::dvec4(gradients[0][a], gradients[1][a], gradients[2][a], gradients[3][a]));
     return true;
 }
 
@@ -64,9 +68,13 @@ double GlTets::goOn(const Scene& scene, std::uint64_t cells) {
         list(scene, cells);
         return kListing * share(l.listed, l.all.size());
     }
-    if (!sending_) sending_ = std::make_unique<gl::Buffer>(l.count * sizeof(GlTet));
+    const bool isLit = scene.light != Light::Off;
+    if (!sending_) {
+        sending_ = std::make_unique<gl::Buffer>(l.count * sizeof(GlTet));
+        if (isLit) slopes_ = std::make_unique<gl::Buffer>(l.count * sizeof(GlTetSlopes));
+    }
     if (l.sent < l.parts.size()) {
-        send();
+        send(isLit);
         return kListing + (1 - kListing) * share(l.sent, l.parts.size());
     }
     std::partial_sum(l.firsts.begin(), l.firsts.end(), l.firsts.begin());
@@ -91,11 +99,13 @@ void GlTets::list(const Scene& scene, std::uint64_t cells) {
         forEachTet(scene, some.subspan(first, last - first), nullptr,
                    [&](const ValuedTet& tet, const CellOfLayer& of) {
                        GlTet piece{};
-                       if (takeTet(piece, tet, of, scene, steep))
-                           l.parts[before + k].push_back(piece);
+                       GlTetSlopes slopes;
+                       if (!takeTet(piece, slopes, tet, of, scene, steep)) return;
+                       l.parts[before + k].tets.push_back(piece);
+                       if (scene.light != Light::Off) l.parts[before + k].slopes.push_back(slopes);
                    });
     });
-    for (std::size_t k = before; k < l.parts.size(); ++k) keep(scene, l.parts[k]);
+    for (std::size_t k = before; k < l.parts.size(); ++k) keep(scene, l.parts[k].tets);
     if (l.count * sizeof(GlTet) > mostBytes_) throw std::runtime_error(kTooManyPieces);
     l.listed += some.size();
 }
@@ -117,20 +127,26 @@ void GlTets::keep(const Scene& scene, const std::vector<GlTet>& part) {
     l.count += part.size();
 }
 
-void GlTets::send() {
+void GlTets::send(bool isLit) {
     constexpr std::uint64_t kAtOnce = (std::uint64_t{16} << 20) / sizeof(GlTet);
     Listing& l = *listing_;
     for (std::uint64_t tets = 0; l.sent < l.parts.size() && tets < kAtOnce; ++l.sent) {
-        std::vector<GlTet>& part = l.parts[l.sent];
-        sending_->write(l.sentTets * sizeof(GlTet), part.size() * sizeof(GlTet), part.data());
-        l.sentTets += part.size();
-        tets += part.size();
+        Part& part = l.parts[l.sent];
+        const std::size_t count = part.tets.size();
+        sending_->write(l.sentTets * sizeof(GlTet), count * sizeof(GlTet), part.tets.data());
+        if (isLit)
+            slopes_->write(l.sentTets * sizeof(GlTetSlopes), count * sizeof(GlTetSlopes),
+                           part.slopes.data());
+        l.sentTets += count;
+        tets += count;
         part = {};
     }
 }
 
 std::uint64_t GlTets::bytes() const {
-    std::uint64_t sum = GlPieces::bytes() + (sending_ ? sending_->bytes() : 0);
+    std::uint64_t sum = GlPieces::bytes();
+    for (const auto* held : {&sending_, &slopes_})
+        if (*held) sum += (*held)->bytes();
     for (const auto* held : {&cells_, &middles_})
         if (*held) sum += (*held)->bytes();
     return sum;

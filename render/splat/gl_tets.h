@@ -24,6 +24,8 @@ struct GlTet {
     std::uint32_t kind;
     std::uint32_t cell;  // its number
 };
+// Of f at its corners, along each axis: by which light falls on it (tet::gradientsOf).
+using GlTetSlopes = std::array<glm::vec4, 3>;
 
 class GlTets final : public GlPieces {
  public:
@@ -33,14 +35,19 @@ class GlTets final : public GlPieces {
 
     double goOn(const Scene& scene, std::uint64_t cells) override;
     std::uint64_t bytes() const override;
+    const gl::Buffer* slopes() const override { return slopes_.get(); }
 
  private:
+    struct Part {
+        std::vector<GlTet> tets;
+        std::vector<GlTetSlopes> slopes;  // of each, where light falls on them
+    };
     // Until all are sent.
     struct Listing {
         std::vector<CellOfLayer> all;
-        std::size_t listed = 0;                 // of them
-        std::vector<std::vector<GlTet>> parts;  // one after the other
-        std::size_t sent = 0;                   // parts
+        std::size_t listed = 0;   // of them
+        std::vector<Part> parts;  // one after the other
+        std::size_t sent = 0;     // parts
         std::uint64_t count = 0, sentTets = 0;
         std::vector<std::uint32_t> cells, firsts;
         std::vector<glm::vec4> middles;
@@ -48,7 +55,7 @@ class GlTets final : public GlPieces {
     };
     void list(const Scene& scene, std::uint64_t cells);
     void keep(const Scene& scene, const std::vector<GlTet>& part);
-    void send();
+    void send(bool isLit);
 
     // Where the eye is, in axis coordinates.
     glm::dvec3 keyOf(const Scene& scene, const View& view) const override;
@@ -57,7 +64,7 @@ class GlTets final : public GlPieces {
 
     std::uint64_t mostBytes_;
     std::optional<Listing> listing_;
-    std::unique_ptr<gl::Buffer> sending_;
+    std::unique_ptr<gl::Buffer> sending_, slopes_;
     double radius_ = 0;  // of the middles about the origin
     // Of each piece, which of the cells that follow each other in one layer has it; their middles.
     std::optional<gl::Buffer> cells_, middles_;

@@ -44,8 +44,12 @@ unsigned fillMissing(std::array<double, 8>& corners) {
 }
 
 MeshCells::MeshCells(const PlacedPoints& placed, const timeseries::CellCorners& corners,
-                     const IndexBox& clip)
-    : placed_(placed), corners_(corners), clip_(clip), points_(placed.size()) {
+                     const IndexBox& clip, const timeseries::PointGradients* gradients)
+    : placed_(placed),
+      corners_(corners),
+      clip_(clip),
+      gradients_(placed, gradients),
+      points_(placed.size()) {
     const glm::dvec3 scale = placed.scale();
     const timeseries::Mesh& mesh = *placed.mesh();
     period_ = placed.period();
@@ -169,6 +173,8 @@ std::optional<MeshCells::Hexahedron> MeshCells::operator()(const glm::uvec3& cel
         out.at[c] = cornerAt(cell, c);
         if (!timeseries::isPlace(out.at[c])) return std::nullopt;
         out.at[c] = out.at[0] + way(out.at[0], out.at[c]);
+        if (gradients_)
+            out.gradients[c] = gradients_.at(corners_.indexOf(corners_.pointAt(cell, c)));
     }
     return out;
 }
@@ -215,11 +221,17 @@ MeshCells::Hexahedron MeshCells::octantOf(const Hexahedron& cell, unsigned octan
     for (unsigned c = 0; c < 8; ++c) {
         const glm::dvec3 u = first + 0.5 * glm::dvec3(c & 1, c >> 1 & 1, c >> 2);
         part.values[c] = render::cell::valueAt(cell.values, u);
-        for (int a = 0; a < 3; ++a) {
-            std::array<double, 8> along{};
-            for (std::size_t k = 0; k < 8; ++k) along[k] = cell.at[k][a];
-            part.at[c][a] = render::cell::valueAt(along, u);
-        }
+        const auto between = [&](const std::array<glm::dvec3, 8>& corners) {
+            glm::dvec3 at;
+            for (int a = 0; a < 3; ++a) {
+                std::array<double, 8> along{};
+                for (std::size_t k = 0; k < 8; ++k) along[k] = corners[k][a];
+                at[a] = render::cell::valueAt(along, u);
+            }
+            return at;
+        };
+        part.at[c] = between(cell.at);
+        if (gradients_) part.gradients[c] = between(cell.gradients);
     }
     return part;
 }

@@ -13,6 +13,7 @@
 #include "render/model/tet_splat.h"
 #include "render/points/placed_points.h"
 #include "timeseries/index/cell_corners.h"
+#include "timeseries/index/point_gradients.h"
 
 namespace render {
 
@@ -20,17 +21,33 @@ namespace render {
 // that cells beside each other have like values on their common face; a bit for each that has one.
 unsigned fillMissing(std::array<double, 8>& corners);
 
+// A field's gradients at the points of a mesh, in axis coordinates. What it is made of must outlive
+// it.
+class MeshGradients {
+ public:
+    // Null: there are none.
+    MeshGradients(const PlacedPoints& placed, const timeseries::PointGradients* gradients)
+        : gradients_(gradients), perLength_(1.0 / placed.scale()) {}
+    explicit operator bool() const { return gradients_ != nullptr; }
+    glm::dvec3 at(std::uint64_t point) const { return perLength_ * gradients_->at(point); }
+
+ private:
+    const timeseries::PointGradients* gradients_;
+    glm::dvec3 perLength_;
+};
+
 // What it is made of must outlive it.
 class MeshCells {
  public:
     // REQUIRES: placed.isMesh() and hasNeighbours().
     MeshCells(const PlacedPoints& placed, const timeseries::CellCorners& corners,
-              const IndexBox& clip);
+              const IndexBox& clip, const timeseries::PointGradients* gradients = nullptr);
 
     struct Hexahedron {
         std::array<glm::dvec3, 8> at;  // in axis coordinates
         std::array<double, 8> values;
-        unsigned octants = 0;  // that are seen, as of SeenOctants
+        std::array<glm::dvec3, 8> gradients;  // if there are some
+        unsigned octants = 0;                 // that are seen, as of SeenOctants
     };
     // None where nothing is seen: a corner has no place, or none a value within the clip box. Half
     // cells beyond the outermost points reach as far as half the way to the points before these,
@@ -41,7 +58,8 @@ class MeshCells {
     struct Tetrahedron {
         std::array<glm::dvec3, 4> at;
         std::array<double, 4> values;
-        std::array<unsigned, 4> corners;  // of the cell; of an octant, its own
+        std::array<unsigned, 4> corners;      // of the cell; of an octant, its own
+        std::array<glm::dvec3, 4> gradients;  // if there are some
     };
     // use(Tetrahedron) for those that fill what is seen of it; from an eye that is given, each
     // before what it hides. Those that are turned inside out beside most of the grid's are left
@@ -110,6 +128,7 @@ class MeshCells {
     const PlacedPoints& placed_;
     timeseries::CellCorners corners_;
     const IndexBox& clip_;
+    MeshGradients gradients_;
     glm::uvec3 points_;
     glm::dvec3 period_, reach_;
     bool clips_, isLeft_;  // most cells of the grid are left-handed
@@ -120,10 +139,12 @@ void MeshCells::forEachTetIn(const Hexahedron& part, const glm::dvec3* eye, cons
     const Order order = eye ? ringFrom(*eye, part.at) : kAsTheyAre;
     for (std::size_t n = 0; n < kRing.size(); ++n) {
         const std::size_t k = order[n], next = (k + 1) % kRing.size();
-        Tetrahedron tet{.at = {}, .values = {}, .corners = {0, kRing[k], kRing[next], 7}};
+        Tetrahedron tet{
+            .at = {}, .values = {}, .corners = {0, kRing[k], kRing[next], 7}, .gradients = {}};
         for (std::size_t i = 0; i < 4; ++i) {
             tet.at[i] = part.at[tet.corners[i]];
             tet.values[i] = part.values[tet.corners[i]];
+            tet.gradients[i] = part.gradients[tet.corners[i]];
         }
         use(tet);
     }

@@ -71,7 +71,7 @@ class Part {
     std::vector<Stretch> stretches_;
     timeseries::PageVector<SeenCell> cells_;
     timeseries::PageVector<CellSlopes> slopes_;  // of each, where light falls on them
-    std::vector<SeenTet> tets_;                  // of a mesh, instead of these
+    SeenTets tets_;                              // of a mesh, instead of these
     PieceBatch pieces_;
     std::vector<TileSpan> cellSpans_;
     TileBins cellBins_, splatBins_;
@@ -87,10 +87,8 @@ void Part::lookAtCells(const Scene& scene, const CellView& view, const CellBatch
             pieces_.count = 0;
         });
     forEachTet(scene, some, &view.seen.rays.eye, [&](const ValuedTet& tet, const CellOfLayer& of) {
-        const auto seen = seenTet(view, tet, of.layer, scene.layers[of.layer].style);
-        if (!seen) return;
-        tets_.push_back(*seen);
-        cellSpans_.push_back(spanOf(view, *seen));
+        if (tets_.add(view, tet, of.layer, scene.layers[of.layer].style))
+            cellSpans_.push_back(spanOf(view, tets_.tets.back()));
     });
 }
 
@@ -187,7 +185,7 @@ void Part::sum(const CellView& cells, const TileView& splats, std::size_t tile, 
         const std::size_t lastCell = upTo(cellsHere, cell, stretch.cells);
         if (lastCell == cell) continue;
         const auto some = cellsHere.subspan(cell, lastCell - cell);
-        if (tets_.empty())
+        if (tets_.tets.empty())
             sumCells(cells, cells_, slopes_, some, room);
         else
             sumTets(cells, tets_, some, room);

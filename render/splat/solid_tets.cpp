@@ -29,6 +29,7 @@ unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron
             tet.at[i] = tet.at[0] + timeseries::shorterWay(tet.at[i] - tet.at[0], period_);
         if (!timeseries::isPlace(tet.at[i])) return 0;
         tet.corners[i] = points[i];
+        if (gradients_) tet.gradients[i] = gradients_.at(points[i]);
         tet.values[i] = timeseries::finiteValue(field_, points[i]);
         if (std::isnan(tet.values[i])) continue;
         ++there;

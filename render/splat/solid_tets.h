@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/model/scene.h"
 #include "render/splat/mesh_cells.h"
 #include "timeseries/grid/solid_cells.h"
 
@@ -24,11 +25,13 @@ namespace render {
 class SolidTets {
  public:
     // REQUIRES: the placed points' mesh, and the field's grid's, has solids().
-    SolidTets(const PlacedPoints& placed, const timeseries::Field& field, const IndexBox& clip)
+    SolidTets(const PlacedPoints& placed, const timeseries::Field& field, const IndexBox& clip,
+              const timeseries::PointGradients* gradients = nullptr)
         : placed_(placed),
           cells_(*placed.mesh()->solids()),
           field_(field),
           clip_(clip),
+          gradients_(placed, gradients),
           clips_(!clip.holdsAll()),
           period_(placed.period()),
           comesRound_(period_ != glm::dvec3(0)),
@@ -74,6 +77,7 @@ class SolidTets {
     const timeseries::SolidCells& cells_;
     const timeseries::Field& field_;
     const IndexBox& clip_;
+    MeshGradients gradients_;
     bool clips_;
     glm::dvec3 period_;
     bool comesRound_;
@@ -81,12 +85,14 @@ class SolidTets {
     glm::dvec3 reach_;
 };
 
-// use(cells): as MeshCells or as SolidTets, whichever the mesh has. REQUIRES: one of them.
+// use(cells): as MeshCells or as SolidTets, whichever the mesh has, of the scene, which is of this
+// field. REQUIRES: one of them.
 template <typename Use>
-void withTets(const PlacedPoints& placed, const timeseries::Field& field, const IndexBox& clip,
-              const Use& use) {
-    if (!placed.hasNeighbours()) return use(SolidTets(placed, field, clip));
-    use(MeshCells(placed, timeseries::CellCorners(field), clip));
+void withTets(const Scene& scene, const timeseries::Field& field, const Use& use) {
+    const PlacedPoints& placed = scene.placed;
+    const timeseries::PointGradients* const gradients = scene.gradients.get();
+    if (!placed.hasNeighbours()) return use(SolidTets(placed, field, scene.clip, gradients));
+    use(MeshCells(placed, timeseries::CellCorners(field), scene.clip, gradients));
 }
 
 template <typename Use>
@@ -108,6 +114,7 @@ void SolidTets::forEachSeen(const Tetrahedron& tet, unsigned seen, const glm::dv
                 if ((of >> i & 1) == 0) continue;
                 part.at[c] += share * tet.at[i];
                 part.values[c] += share * tet.values[i];
+                part.gradients[c] += share * tet.gradients[i];
             }
         }
         MeshCells::forEachTetIn(part, eye, [&](Tetrahedron some) {

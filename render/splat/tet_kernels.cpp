@@ -8,7 +8,7 @@
 //
 #include <hwy/highway.h>
 //
-#include "render/splat/cell_range-inl.h"
+#include "render/splat/cell_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace render {
@@ -40,8 +40,44 @@ HWY_INLINE Way wayThrough(const SeenTet& c, V ox, V oy, V near, V opaque) {
     return way;
 }
 
+// Light on a tetrahedron.
+struct TetLight {
+    LightLanes<Lanes> light;
+    const TetSlopes& slopes;
+    V right[3], up[3];  // of the way of a ray, a pixel
+    TetLight(const CellView& view, const TetSlopes& of)
+        : light(Lanes(), view, of.steep), slopes(of) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            right[a] = set(view.perPixelX[a]);
+            up[a] = set(view.perPixelY[a]);
+        }
+    }
+    // At a depth from the base, on rays of such pixels.
+    HWY_INLINE void shade(const CellView& view, V ox, V oy, V base, V depth, V factor, V& diffuse,
+                          V& specular) const {
+        constexpr std::array<float, 3> kPerAxis{1, 1, 1};
+        V g[3], way[3], change = set(0);
+        for (std::size_t a = 0; a < 3; ++a) {
+            const TetSlopes::Along& f = slopes.along[a];
+            const V shift = hn::MulAdd(ox, set(f.right), hn::Mul(oy, set(f.up)));
+            const V at = hn::MulAdd(base, shift, set(f.at));
+            g[a] = hn::MulAdd(depth, hn::Add(set(f.ray), shift), at);
+            way[a] = hn::MulAdd(ox, right[a], hn::MulAdd(oy, up[a], set(slopes.way[a])));
+            change = hn::MulAdd(g[a], way[a], change);
+        }
+        if (view.lamp)
+            light.template shade<Lit::FromLamp>(view, g, change, way, kPerAxis, factor, diffuse,
+                                                specular);
+        else
+            light.template shade<Lit::FromEye>(view, g, change, way, kPerAxis, factor, diffuse,
+                                               specular);
+    }
+};
+
+// `slopes`: null where no light falls on it.
 template <Channels kChannels, bool kByValue, int kEnds>
-HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
+HWY_INLINE void addTet(const CellView& view, const SeenTet& c, const TetSlopes* slopes,
+                       TileRoom& room) {
     constexpr bool kColors = kChannels == Channels::WeightedColor || kChannels == Channels::Over;
     constexpr PixelBlock<Lanes, kTileStride> pixels;
     constexpr int kColumns = static_cast<int>(pixels.kColumns);
@@ -59,12 +95,7 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
     float scale = view.weight;
     if constexpr (kColors) scale *= color.weight;
     const V weight = set(scale), perRange = set(scale / view.weight * c.perRange);
-    const bool hides = room.nearestOpaque < 1, isLit = view.light != Light::Off;
-    float lampRight = 0, lampUp = 0;  // of a ray, a pixel
-    for (int a = 0; view.lamp && a < 3; ++a) {
-        lampRight += view.lamp->ofWay[a] * view.perPixelX[static_cast<std::size_t>(a)];
-        lampUp += view.lamp->ofWay[a] * view.perPixelY[static_cast<std::size_t>(a)];
-    }
+    const bool hides = room.nearestOpaque < 1;
     const V depthA = set(static_cast<float>(view.depthA));
     const V depthB = set(static_cast<float>(view.depthB));
     const V base = set(c.base), near = set(view.near - c.base), half = set(0.5f);
@@ -125,19 +156,11 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
             t = hn::IfThenElseZero(inside, t);
             addWeight<kChannels>(pixels, lanes, t, room, at, [&](V* colors) HWY_ATTR {
                 if constexpr (kColors) color.between(front, back, colors);
-                if (!isLit) return;
-                const V perLength = hn::Mul(set(1 / view.rayLength), reciprocal(lanes, factor));
-                const V facing = hn::Min(
-                    set(1), hn::Mul(hn::Mul(hn::Abs(change), set(c.perSteepness)), perLength));
-                V diffuse, specular;
-                if (view.lamp) {
-                    const V ofRay =
-                        hn::MulAdd(ox, set(lampRight), hn::MulAdd(oy, set(lampUp), set(c.ofRay)));
-                    lampLightOf(lanes, view.light, set(c.certainty), set(c.towards), facing, change,
-                                hn::Mul(ofRay, perLength), diffuse, specular);
-                } else {
-                    lightOf(lanes, view.light, set(c.certainty), facing, facing, diffuse, specular);
-                }
+                if (slopes == nullptr) return;
+                V depth = middle, diffuse, specular;
+                if constexpr (kEnds > 0)
+                    depth = hn::Add(depth, inRange(lanes, c, value, change, length));
+                TetLight(view, *slopes).shade(view, ox, oy, base, depth, factor, diffuse, specular);
                 for (int k = 0; k < 3; ++k) colors[k] = hn::MulAdd(colors[k], diffuse, specular);
             });
         }
@@ -145,26 +168,31 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, TileRoom& room) {
 }
 
 template <Channels kChannels, bool kByValue>
-HWY_INLINE void addTets(const CellView& view, std::span<const SeenTet> tets,
+HWY_INLINE void addTets(const CellView& view, const SeenTets& seen,
                         std::span<const std::uint32_t> which, TileRoom& room) {
+    const std::vector<SeenTet>& tets = seen.tets;
+    const bool isLit = kChannels == Channels::Over && view.light != Light::Off;
     for (std::size_t i = 0; i < which.size(); ++i) {
         if (kChannels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
-        prefetch(tets[which[std::min(i + kAhead, which.size() - 1)]]);
+        const std::size_t ahead = which[std::min(i + kAhead, which.size() - 1)];
+        prefetch(tets[ahead]);
+        if (isLit) prefetch(seen.slopes[ahead]);
         const SeenTet& c = tets[which[i]];
+        const TetSlopes* const slopes = isLit ? &seen.slopes[which[i]] : nullptr;
         switch (int{c.crossesLeast()} + int{c.crossesMost()}) {
             case 0:
-                addTet<kChannels, kByValue, 0>(view, c, room);
+                addTet<kChannels, kByValue, 0>(view, c, slopes, room);
                 break;
             case 1:
-                addTet<kChannels, kByValue, 1>(view, c, room);
+                addTet<kChannels, kByValue, 1>(view, c, slopes, room);
                 break;
             default:
-                addTet<kChannels, kByValue, 2>(view, c, room);
+                addTet<kChannels, kByValue, 2>(view, c, slopes, room);
         }
     }
 }
 
-HWY_ATTR void SumTets(const CellView& view, std::span<const SeenTet> tets,
+HWY_ATTR void SumTets(const CellView& view, const SeenTets& tets,
                       std::span<const std::uint32_t> which, TileRoom& room) {
     switch (view.channels) {
         case Channels::Weight:
@@ -188,8 +216,8 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 HWY_EXPORT(SumTets);
 
-void sumTets(const CellView& view, std::span<const SeenTet> tets,
-             std::span<const std::uint32_t> which, TileRoom& room) {
+void sumTets(const CellView& view, const SeenTets& tets, std::span<const std::uint32_t> which,
+             TileRoom& room) {
     HWY_DYNAMIC_DISPATCH(SumTets)(view, tets, which, room);
 }
 }  // namespace render

@@ -10,7 +10,7 @@
 namespace render {
 
 // Adds tetrahedra in this order, of which `which` says; Over: each before those that come later.
-void sumTets(const CellView& view, std::span<const SeenTet> tets,
-             std::span<const std::uint32_t> which, TileRoom& room);
+void sumTets(const CellView& view, const SeenTets& tets, std::span<const std::uint32_t> which,
+             TileRoom& room);
 
 }  // namespace render

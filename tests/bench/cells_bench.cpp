@@ -148,6 +148,44 @@ BENCHMARK(cellsOfMeshBesideUpright)
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 
+// Tetrahedra lit by the gradients of points, beside not lit.
+void tetsLitBesideUnlit(benchmark::State& state) {
+    timeseries::Field field = bench::turbulence<float>(96);
+    field.grid = bench::latticeOneByOne(96, state.range(0) != 0);
+    CellsOfRange mesh(std::move(field), 100, true);
+    mesh.scene.gradients = mesh.step.gradients(mesh.placed.mesh());
+    PlainFrame frame(mesh.step, mesh.placed, glm::dvec3(0));
+    const auto draw = [&](Light light) {
+        mesh.scene.light = light;
+        frame.draw(mesh.scene, mesh.view);
+    };
+    bench::alternate(
+        state, [&] { draw(Light::Off); }, [&] { draw(Light::Full); });
+    state.counters["cells"] = static_cast<double>(cellCount(mesh.scene.layers[0]));
+}
+BENCHMARK(tetsLitBesideUnlit)
+    ->ArgName("solids")
+    ->Arg(0)
+    ->Arg(1)
+    ->Iterations(7)
+    ->Unit(benchmark::kMillisecond);
+
+// How a field changes about the points of a mesh, beside the list of its cells by value.
+void gradientsBesideCells(benchmark::State& state) {
+    timeseries::Field made = bench::turbulence<float>(128);
+    made.grid = bench::latticeOneByOne(128, state.range(0) != 0);
+    const auto field = std::make_shared<const timeseries::Field>(std::move(made));
+    bench::alternate(
+        state, [&] { timeseries::CellIndex{field}; },
+        [&] { timeseries::PointGradients(*field, field->grid->mesh()); });
+}
+BENCHMARK(gradientsBesideCells)
+    ->ArgName("solids")
+    ->Arg(0)
+    ->Arg(1)
+    ->Iterations(3)
+    ->Unit(benchmark::kMillisecond);
+
 // What is under the cursor, in the middle of the picture.
 void cellUnderCursorOfMesh(benchmark::State& state) {
     const auto n = static_cast<std::size_t>(state.range(0));

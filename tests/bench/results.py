@@ -342,6 +342,17 @@ def cells_page(part):
     if rows:
         text += ("\nThe same points placed one by one, whose cells are six tetrahedra each, beside those of the upright grid, by turns.\n\n"
                  + table(["points", "cells", "range", "order", "cells", "tetrahedra drawn", "upright cells drawn", "ratio"], rows))
+    rows = []
+    for solids, kind in enumerate(kinds):
+        f, made = part(f"tetsLitBesideUnlit/solids:{solids}"), part(f"gradientsBesideCells/solids:{solids}")
+        if f and made:
+            rows.append([kind, ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"]),
+                         ms(made, "second_ms"), digits(made["second/first"])])
+            target(f"tetrahedra in order, lit / not, {kind}, 96³, a range of 0.1", f["second/first"], 1.3)
+    if rows:
+        text += ("\nFrames of the tetrahedra of 96³ points lit by the gradients of points, beside not lit; and how long these gradients of "
+                 "128³ points take, which a step has once, beside its cells by value.\n\n"
+                 + table(["cells", "not lit", "lit", "ratio", "gradients", "to cells by value"], rows))
     under = [(kind, part(f"cellUnderCursorOfMesh/points:96/thousandths:1000/solids:{solids}")) for solids, kind in enumerate(kinds)]
     if all(f for _, f in under):
         text += "\nUnder the cursor, of " + " and of ".join(

@@ -9,7 +9,7 @@
 #include "render/model/cell_splat.h"
 #include "render/model/light.h"
 #include "render/splat/cell_view.h"
-#include "tests/support/cell_rays.h"
+#include "tests/support/lit_sphere.h"
 #include "tests/support/meshes.h"
 #include "tests/support/rounds.h"
 #include "tests/support/scenes.h"
@@ -282,41 +282,11 @@ TEST(CellSplatter, ASphereIsLitAsItsNormalsSay) {
                     {"3.7~0.1"}, 0.999);
     world.scene.opacityPer = OpacityPer::Crossing;
     world.scene.order = Order::BackToFront;
-    const View view = tests::lookFrom({1.1, -2.5, 0.8}, {80, 60});
-    const std::vector<float> dark = drawn(world.scene, view, Channels::Over);
-    const auto& places = world.placed.positions();
-    const double unit = std::abs(places[0][1] - places[0][0]);  // of the grid, in axis coordinates
-    glm::dvec3 middle;
-    for (std::size_t a = 0; a < 3; ++a)
-        middle[int(a)] =
-            places[a][0] +
-            (places[a].back() - places[a][0]) * (centre[int(a)] - grid->position(0)[int(a)]) /
-                (grid->position(grid->count() - 1)[int(a)] - grid->position(0)[int(a)]);
-    world.scene.light = Light::Soft;
-    const double steepness = steepnessOf(world.scene);
     for (const Lamp& lamp : {Lamp(), Lamp(glm::normalize(glm::dvec3(1, -1, 2)))}) {
-        world.scene.lamp = lamp;
-        const std::vector<float> lit = drawn(world.scene, view, Channels::Over);
-        double square = 0, most = 0;
-        int seen = 0;
-        for (int y = 0; y < 60; ++y)
-            for (int x = 0; x < 80; ++x) {
-                const std::size_t at = 4 * (std::size_t(y) * 80 + std::size_t(x));
-                const Ray ray = rayOf(world, view, {x + 0.5, y + 0.5});
-                const glm::dvec3 d = glm::normalize(ray.along), from = ray.from - middle;
-                const double along = glm::dot(d, from), radius = 3.7 * unit;
-                const double under = along * along - glm::dot(from, from) + radius * radius;
-                if (under < 0.1 * radius * radius) continue;  // its rim
-                const glm::dvec3 normal = glm::normalize(from + (-along - std::sqrt(under)) * d);
-                const Shade shade = shadeOf(Light::Soft, lamp, normal / unit, ray.along, steepness);
-                const double off = lit[at] / dark[at] - shade.diffuse;
-                square += off * off;
-                most = std::max(most, std::abs(off));
-                ++seen;
-            }
-        ASSERT_GT(seen, 200);
-        EXPECT_LT(std::sqrt(square / seen), 0.01);
-        EXPECT_LT(most, 0.04);
+        const auto error = tests::lightErrorOfSphere(world, centre, 3.7, lamp);
+        ASSERT_GT(error.pixels, 200);
+        EXPECT_LT(error.rms, 0.01);
+        EXPECT_LT(error.most, 0.04);
     }
 }
 

@@ -29,6 +29,7 @@ struct CellWorld {
                 .order = render::Order::None,
                 .clip = {}} {
         scene.cells = step.cells();
+        if (placed.isMesh()) scene.gradients = step.gradients(placed.mesh());
         for (const std::string& text : layers) {
             const timeseries::RangeSet ranges = timeseries::RangeSet::parse(text);
             render::Layer layer{

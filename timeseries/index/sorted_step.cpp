@@ -6,13 +6,13 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include "timeseries/grid/with_type.h"
 #include "timeseries/index/cell_index.h"
+#include "timeseries/index/lazy_cells.h"
 #include "timeseries/index/lazy_column.h"
 #include "timeseries/index/ordered_key.h"
 #include "timeseries/index/step_blocks.h"
@@ -111,48 +111,6 @@ std::optional<T> leastNotBelow(double value) {
 constexpr std::size_t kFewQuantiles = 64;
 
 }  // namespace
-
-// Made by one thread at a time, while others see what was there before.
-class SortedStep::LazyCells {
- public:
-    explicit LazyCells(std::optional<Field> field = {}) {
-        if (field) field_ = std::make_shared<const Field>(std::move(*field));
-    }
-    std::shared_ptr<const CellIndex> ifMade(std::span<const Interval<double>> among) const {
-        const std::lock_guard lock(held_);
-        return index_ && index_->holds(among) ? index_ : nullptr;
-    }
-    // Of the field that is held, else of read().
-    template <typename Read>
-    std::shared_ptr<const CellIndex> get(std::vector<Interval<double>> among, unsigned threads,
-                                         const Read& read) {
-        const std::lock_guard lock(making_);
-        if (auto made = ifMade(among)) return made;
-        auto field = fieldIfThere();
-        if (!field) field = std::make_shared<const Field>(read());
-        if (index_) among = {kAllNumbers};  // nobody else changes it now
-        auto index = std::make_shared<const CellIndex>(field, threads, std::move(among));
-        const std::lock_guard alone(held_);
-        field_.reset();
-        return index_ = std::move(index);
-    }
-    std::shared_ptr<const Field> fieldIfThere() const {
-        const std::lock_guard lock(held_);
-        return index_ ? index_->sharedField() : field_;
-    }
-    // Of memory.
-    std::uint64_t bytes() const {
-        const std::lock_guard lock(held_);
-        if (index_) return index_->bytes();
-        return field_ ? field_->bytes() : 0;
-    }
-
- private:
-    std::mutex making_;
-    mutable std::mutex held_;
-    std::shared_ptr<const CellIndex> index_;
-    std::shared_ptr<const Field> field_;  // until there is an index of it
-};
 
 SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned threads) {
     SortedStep step;
@@ -305,6 +263,17 @@ std::shared_ptr<const CellIndex> SortedStep::cells(std::vector<Interval<double>>
 std::shared_ptr<const CellIndex> SortedStep::cellsIfMade(
     const std::vector<Interval<double>>& among) const {
     return cells_->ifMade(among);
+}
+
+std::shared_ptr<const PointGradients> SortedStep::gradients(
+    const std::shared_ptr<const Mesh>& mesh) const {
+    if (auto made = gradientsIfMade(mesh)) return made;
+    return cells_->gradients(mesh, threads_, *sharedField());
+}
+
+std::shared_ptr<const PointGradients> SortedStep::gradientsIfMade(
+    const std::shared_ptr<const Mesh>& mesh) const {
+    return cells_->gradientsIfMade(mesh);
 }
 
 std::string_view SortedStep::whyNoCells() const {

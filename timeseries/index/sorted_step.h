@@ -55,9 +55,11 @@ struct StepStatistics {
 };
 
 template <typename T>
-class LazyColumn;  // timeseries/index/lazy_column.h
-class CellIndex;   // timeseries/index/cell_index.h
-class StepFile;    // timeseries/index/step_file.h
+class LazyColumn;      // timeseries/index/lazy_column.h
+class CellIndex;       // timeseries/index/cell_index.h
+class Mesh;            // timeseries/grid/mesh.h
+class PointGradients;  // timeseries/index/point_gradients.h
+class StepFile;        // timeseries/index/step_file.h
 
 // Of a field, the values of so many planes along its last index, without a grid, in the memory of
 // planes that were read before; not once the field is not the same any more.
@@ -141,7 +143,7 @@ class SortedStep {
     const std::shared_ptr<const Grid>& sharedGrid() const { return grid_; }
     const RangeSet& kept() const { return kept_; }
     const StepStatistics& statistics() const { return statistics_; }
-    // Of memory held, that of cells too, and of a mesh if it is this step's alone.
+    // Of memory held, that of cells and gradients too, and of a mesh if it is this step's alone.
     std::uint64_t bytes() const;
     // Of memory held by points, and what those in `runs`, which ascend, take when they are there.
     std::uint64_t pointBytes() const;
@@ -156,6 +158,12 @@ class SortedStep {
     // Null as long as nobody has made them.
     std::shared_ptr<const CellIndex> cellsIfMade(const std::vector<Interval<double>>& among = {
                                                      kAllNumbers}) const;
+    // What the field changes about its points on this mesh, its grid's or what a map makes of that:
+    // made when it is first asked for, and kept until that of another is. REQUIRES: canHaveCells().
+    std::shared_ptr<const PointGradients> gradients(const std::shared_ptr<const Mesh>& mesh) const;
+    // Null as long as nobody has made them.
+    std::shared_ptr<const PointGradients> gradientsIfMade(
+        const std::shared_ptr<const Mesh>& mesh) const;
     // Why there are none, in a few words; "" where there can be.
     std::string_view whyNoCells() const;
     bool canHaveCells() const { return whyNoCells().empty(); }
