@@ -98,7 +98,7 @@ void PictureView::redraw(const Shown& shown, bool resting, const panels::Choices
         // The first eye's picture is the left, or the upper one.
         const auto i = static_cast<int>(eye);
         const glm::ivec2 tile(i * (grid.x - 1), (1 - i) * (grid.y - 1));
-        present_.draw(light, kept_->framebuffer(), tile * e.size);
+        present_.draw(light, *kept_, tile * e.size);
     };
     report_ = resting ? canvas_.refine(shown, eyes_, limits, show)
                       : canvas_.draw(shown, eyes_, limits, true, show);

@@ -26,7 +26,7 @@ void Eyes::draw(const Shown* shown, std::span<const xr::Eye> eyes, const xr::Pla
     for (const xr::Eye& eye : eyes) views.push_back(viewOf(eye, placement));
     bool drawn = false;
     const auto show = [&](std::size_t eye, render::Targets& light) {
-        present_.draw(light, eyes[eye].framebuffer, {0, 0}, render::Encoding::Framebuffer);
+        present_.drawLinear(light, eyes[eye].framebuffer);
         if (eye == 0 && mirror) mirror(light);
         drawn = true;
     };

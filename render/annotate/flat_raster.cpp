@@ -100,11 +100,13 @@ float FlatRaster::coverage(const Triangle& of, double x, double y) const {
 
 // visit(triangle, x, y, place among `count` rows from `first` on): in the mesh's order.
 template <typename Visit>
-void FlatRaster::forEachPixel(glm::ivec2 picture, int first, int count, const Visit& visit) const {
+void FlatRaster::forEachPixel(glm::ivec2 picture, int first, int count, TouchedPixels* touched,
+                              const Visit& visit) const {
     for (const Triangle& t : triangles_) {
         const int last = std::min(t.last, first + count);
         for (int row = std::max(t.first, first); row < last; ++row) {
             const RowSpan span = spanOf(t.corner, row, picture.x);
+            if (touched) touched->touch(row - first, span.first, span.last);
             std::size_t place =
                 static_cast<std::size_t>(row - first) * static_cast<std::size_t>(picture.x) +
                 static_cast<std::size_t>(span.first);
@@ -114,8 +116,8 @@ void FlatRaster::forEachPixel(glm::ivec2 picture, int first, int count, const Vi
     }
 }
 
-void FlatRaster::draw(const PixelRows<float>& light) const {
-    forEachPixel(light.picture, light.first, light.count,
+void FlatRaster::draw(const PixelRows<float>& light, TouchedPixels* touched) const {
+    forEachPixel(light.picture, light.first, light.count, touched,
                  [&](const Triangle& t, double x, double y, std::size_t place) {
                      const float covered = coverage(t, x, y);
                      if (!(covered > 0)) return;
@@ -127,7 +129,7 @@ void FlatRaster::draw(const PixelRows<float>& light) const {
 }
 
 void FlatRaster::drawDepth(const PixelRows<float>& depth) const {
-    forEachPixel(depth.picture, depth.first, depth.count,
+    forEachPixel(depth.picture, depth.first, depth.count, nullptr,
                  [&](const Triangle& t, double x, double y, std::size_t place) {
                      if (coverage(t, x, y) > 0.5f)
                          depth.pixels[place] = std::min(depth.pixels[place], t.depth.at(x, y));

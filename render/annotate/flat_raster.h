@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/annotate/flat_mesh.h"
+#include "render/annotate/touched_pixels.h"
 
 namespace render {
 
@@ -23,8 +24,9 @@ class FlatRaster {
  public:
     FlatRaster(const FlatMesh& mesh, const Font& font, glm::ivec2 picture);
 
-    // Blends it over light: linear, premultiplied RGBA.
-    void draw(const PixelRows<float>& light) const;
+    // Blends it over light: linear, premultiplied RGBA. Tells which of these rows' pixels it may
+    // have changed, where somebody asks.
+    void draw(const PixelRows<float>& light, TouchedPixels* touched = nullptr) const;
     // Makes the depth that of the nearest, where it covers more than half of a pixel.
     void drawDepth(const PixelRows<float>& depth) const;
     bool empty() const { return triangles_.empty(); }
@@ -48,7 +50,8 @@ class FlatRaster {
     const Coverage& coverageOf(const glm::vec4& color);
     float coverage(const Triangle& of, double x, double y) const;
     template <typename Visit>
-    void forEachPixel(glm::ivec2 picture, int first, int count, const Visit& visit) const;
+    void forEachPixel(glm::ivec2 picture, int first, int count, TouchedPixels* touched,
+                      const Visit& visit) const;
 
     const Font& font_;
     std::vector<Triangle> triangles_;

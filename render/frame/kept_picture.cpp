@@ -9,9 +9,9 @@ namespace render {
 KeptPicture::KeptPicture(glm::ivec2 size)
     : texture_(GL_RGBA8, size), framebuffer_(std::array{texture_.id()}) {}
 
-void KeptPicture::write(std::span<const std::uint8_t> rgba) {
+void KeptPicture::write(std::span<const std::uint8_t> rgba, glm::ivec2 at, glm::ivec2 size) {
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(texture_.id(), 0, 0, 0, size().x, size().y, GL_RGBA, GL_UNSIGNED_BYTE,
+    glTextureSubImage2D(texture_.id(), 0, at.x, at.y, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE,
                         rgba.data());
 }
 

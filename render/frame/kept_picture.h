@@ -16,7 +16,8 @@ class KeptPicture {
     glm::ivec2 size() const { return texture_.size(); }
     // sRGB bytes, row 0 at the bottom; to draw into.
     GLuint framebuffer() const { return framebuffer_.id(); }
-    void write(std::span<const std::uint8_t> rgba);  // all of it, row 0 at the bottom
+    // Its pixels from `at` (lower left corner) to at + size, row 0 at the bottom.
+    void write(std::span<const std::uint8_t> rgba, glm::ivec2 at, glm::ivec2 size);
     // Clears the window's own framebuffer to `ground` (sRGB) and copies the picture into it, lower
     // left corner at `at`.
     void show(glm::ivec2 window, glm::ivec2 at, const glm::vec3& ground) const;

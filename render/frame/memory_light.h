@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "render/annotate/touched_pixels.h"
 #include "render/frame/light_pass.h"
 
 namespace render {
@@ -25,7 +26,13 @@ class MemoryLight final : public LightPass {
  private:
     const Font* font_ = nullptr;
     PlanePixels enlarged_;
-    std::vector<std::vector<float>> rooms_;  // for some rows, one a thread
+    // Light of some rows, the ground's but while they are drawn.
+    struct Room {
+        std::vector<float> light;
+        glm::vec3 ground{-1};
+        TouchedPixels touched;
+    };
+    std::vector<Room> rooms_;  // one a thread
 };
 
 }  // namespace render

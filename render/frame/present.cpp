@@ -5,7 +5,6 @@
 #include <span>
 #include <thread>
 
-#include "render/gl/pass.h"
 #include "render/image/encode_srgb.h"
 #include "render/shader_sources.h"
 
@@ -18,20 +17,29 @@ Present::Present(bool onProcessor)
       scale_("present", shaders::viewport_vert, shaders::present_frag,
              "#define ENCODE\n#define SCALED\n") {}
 
-void Present::draw(Targets& shown, GLuint framebuffer, glm::ivec2 at, Encoding encoding) const {
-    const bool toHeadset = encoding == Encoding::Framebuffer;
-    if (!shown.srgb8().empty()) return drawBytes(shown.srgb8(), shown.size(), framebuffer, at);
+void Present::draw(Targets& shown, KeptPicture& picture, glm::ivec2 at) const {
+    if (!shown.srgb8().empty()) return picture.write(shown.srgb8(), at, shown.size());
     const GlTargets& light = shown.onGl();
-    if (!toHeadset && onProcessor_) return drawHere(light, framebuffer, at);
-    gl::Pass pass{
-        .framebuffer = framebuffer, .size = light.size(), .at = at, .srgbWrite = toHeadset};
-    if (toHeadset) {
-        pass.clearDepth = 1.0f;
-        pass.depth = gl::DepthTest::TestAndWrite;
-    }
+    if (onProcessor_) return picture.write(encoded(light), at, light.size());
+    drawBy(encode_, {.framebuffer = picture.framebuffer(), .size = light.size(), .at = at}, light);
+}
+
+void Present::drawLinear(Targets& shown, GLuint framebuffer) const {
+    const GlTargets& light = shown.onGl();
+    drawBy(copy_,
+           {.framebuffer = framebuffer,
+            .size = light.size(),
+            .clearDepth = 1.0f,
+            .depth = gl::DepthTest::TestAndWrite,
+            .srgbWrite = true},
+           light);
+}
+
+void Present::drawBy(const gl::Program& program, const gl::Pass& pass,
+                     const GlTargets& light) const {
     gl::begin(pass);
-    glUseProgram(toHeadset ? copy_.id() : encode_.id());
-    glUniform2i(0, at.x, at.y);
+    glUseProgram(program.id());
+    glUniform2i(0, pass.at.x, pass.at.y);
     glBindTextureUnit(0, light.light().id());
     glBindTextureUnit(1, light.depth().id());
     glBindVertexArray(noVertices_.id());
@@ -39,8 +47,7 @@ void Present::draw(Targets& shown, GLuint framebuffer, glm::ivec2 at, Encoding e
 }
 
 // The light stands before an opaque ground: its alpha is 1 but for rounding.
-void Present::drawHere(const GlTargets& light, GLuint framebuffer, glm::ivec2 at) const {
-    const glm::ivec2 size = light.size();
+std::span<const std::uint8_t> Present::encoded(const GlTargets& light) const {
     light.lightRows(light_);
     encoded_.resize(light_.size());
     const std::size_t half = light_.size() / 8 * 4;
@@ -51,16 +58,7 @@ void Present::drawHere(const GlTargets& light, GLuint framebuffer, glm::ivec2 at
         encodeSrgb8(std::span(light_).first(half), std::span(encoded_).first(half));
     }
     for (std::size_t i = 3; i < encoded_.size(); i += 4) encoded_[i] = 255;
-    drawBytes(encoded_, size, framebuffer, at);
-}
-
-void Present::drawBytes(std::span<const std::uint8_t> bytes, glm::ivec2 size, GLuint framebuffer,
-                        glm::ivec2 at) const {
-    if (!bytes_ || bytes_->size() != size) bytes_.emplace(size);
-    bytes_->write(bytes);
-    gl::begin({.framebuffer = framebuffer, .size = size, .at = at});
-    glBlitNamedFramebuffer(bytes_->framebuffer(), framebuffer, 0, 0, size.x, size.y, at.x, at.y,
-                           at.x + size.x, at.y + size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    return encoded_;
 }
 
 void Present::drawScaled(Targets& shown, GLuint framebuffer, glm::ivec2 at, glm::ivec2 size) const {

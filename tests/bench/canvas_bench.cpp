@@ -36,9 +36,7 @@ void BM_CanvasFrame(benchmark::State& state) {
     app::Canvas inMemory(render::SplatterChoice::Cpu, render::LightAs::Srgb8),
         withGl(render::SplatterChoice::Cpu);
     const render::Present present;
-    const render::gl::Texture window(GL_RGBA8, kSize);
-    const GLuint id = window.id();
-    const render::gl::Framebuffer framebuffer(std::span(&id, 1));
+    render::KeptPicture window(kSize);
     const auto eyes = inMemory.eyesOf(now);
     const app::CanvasLimits limits{.splats = 100'000, .uploadBytes = ~std::uint64_t{0}};
     const render::Placard behind{glm::translate(glm::dmat4(1), pixelRays(eyes[0]).eye * 3.0),
@@ -48,7 +46,7 @@ void BM_CanvasFrame(benchmark::State& state) {
         return [&, placards] {
             report = canvas.draw(
                 now, eyes, limits, state.range(2) != 0,
-                [&](std::size_t, render::Targets& light) { present.draw(light, framebuffer.id()); },
+                [&](std::size_t, render::Targets& light) { present.draw(light, window); },
                 {.placards = placards});
             glFinish();
         };
@@ -78,12 +76,10 @@ void BM_Present(benchmark::State& state) {
     render::gl::begin({.framebuffer = light.lightFramebuffer(),
                        .size = kSize,
                        .clearColor = glm::vec4(0.2f, 0.4f, 0.1f, 1)});
-    const render::gl::Texture window(GL_RGBA8, kSize);
-    const GLuint id = window.id();
-    const render::gl::Framebuffer framebuffer(std::span(&id, 1));
+    render::KeptPicture window(kSize);
     const auto with = [&](const render::Present& present) {
         return [&] {
-            present.draw(light, framebuffer.id());
+            present.draw(light, window);
             glFinish();
         };
     };

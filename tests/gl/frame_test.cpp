@@ -274,23 +274,29 @@ TEST_P(Frame, LinesLabelsAndLegendAreTheSameByGlAndByTheProgram) {
     }
 }
 
-// For a window: the bytes are those of the light that is read.
+// For a window: the bytes are those of the light that is read, frame after frame.
 TEST_F(FrameInMemory, LightAsBytesIsTheLightEncoded) {
     FrameRenderer toShow(SplatterChoice::Cpu, LightAs::Srgb8);
-    const std::array eyes{left_};
-    const Image light = renderer_.render(content(), onGpu_, eyes)[0].image;
-    toShow.drawEye(toShow.prepare(content(), onGpu_, eyes), left_);
-    const auto bytes = toShow.targets().srgb8();
-    ASSERT_EQ(bytes.size(), 4u * 200 * 160);
-    for (std::size_t y = 0; y < 160; ++y) {
-        std::vector<std::uint8_t> expected(std::size_t(4) * 200);
-        encodeSrgb8(std::span(&light.at(0, static_cast<int>(159 - y)).x, expected.size()),
-                    expected);
-        EXPECT_TRUE(
-            std::ranges::equal(bytes.subspan(y * expected.size(), expected.size()), expected))
-            << y;
+    const View aside = tests::lookFrom({9, 4, -2}, left_.size);
+    for (const auto& [view, ground] :
+         {std::pair(left_, 0.1), std::pair(aside, 0.1), std::pair(left_, 0.6)}) {
+        const std::array eyes{view};
+        FrameContent of = content();
+        of.background = glm::dvec3(ground);
+        const Image light = renderer_.render(of, onGpu_, eyes)[0].image;
+        toShow.drawEye(toShow.prepare(of, onGpu_, eyes), view);
+        const auto bytes = toShow.targets().srgb8();
+        ASSERT_EQ(bytes.size(), 4u * 200 * 160);
+        for (std::size_t y = 0; y < 160; ++y) {
+            std::vector<std::uint8_t> expected(std::size_t(4) * 200);
+            encodeSrgb8(std::span(&light.at(0, static_cast<int>(159 - y)).x, expected.size()),
+                        expected);
+            EXPECT_TRUE(
+                std::ranges::equal(bytes.subspan(y * expected.size(), expected.size()), expected))
+                << y;
+        }
+        EXPECT_EQ(toShow.render(of, onGpu_, eyes)[0].image, light) << "when read all the same";
     }
-    EXPECT_EQ(toShow.render(content(), onGpu_, eyes)[0].image, light) << "when read all the same";
 }
 
 // For a headset's swapchain.

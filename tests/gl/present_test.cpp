@@ -22,8 +22,10 @@ class Presented : public testing::Test {
  protected:
     static constexpr glm::ivec2 kWindow{320, 300};
 
-    // Into a window of RGBA 9, 9, 9, 9; rows from the top.
-    std::vector<glm::u8vec4> window(const Image& picture, glm::ivec2 at, Encoding encoding,
+    // Into a window of RGBA 9, 9, 9, 9, rows from the top: as bytes, or into a framebuffer that
+    // encodes it.
+    enum class Shown { Bytes, Linear };
+    std::vector<glm::u8vec4> window(const Image& picture, glm::ivec2 at, Shown as = Shown::Bytes,
                                     bool onProcessor = true,
                                     std::optional<glm::ivec2> scaledTo = {}) {
         GlTargets targets(picture.size);
@@ -34,20 +36,24 @@ class Presented : public testing::Test {
             for (int x = 0; x < picture.size.x; ++x) rows.push_back(picture.at(x, y));
         glTextureSubImage2D(targets.light().id(), 0, 0, 0, picture.size.x, picture.size.y, GL_RGBA,
                             GL_FLOAT, rows.data());
-        const gl::Texture shown(encoding == Encoding::Program ? GL_RGBA8 : GL_SRGB8_ALPHA8,
-                                kWindow);
-        const glm::u8vec4 nine(9);
-        glClearTexImage(shown.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, &nine);
-        const GLuint id = shown.id();
-        const gl::Framebuffer framebuffer(std::span(&id, 1));
+        KeptPicture kept(kWindow);
+        const std::vector<std::uint8_t> nines(std::size_t(4) * kWindow.x * kWindow.y, 9);
+        kept.write(nines, {0, 0}, kWindow);
+        const gl::Texture swapchain(GL_SRGB8_ALPHA8, kWindow);
+        glClearTexImage(swapchain.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, nines.data());
+        const GLuint id = swapchain.id();
+        const gl::Framebuffer encoding(std::span(&id, 1));
         const Present& present = onProcessor ? here_ : shader_;
         if (scaledTo)
-            present.drawScaled(targets, framebuffer.id(), at, *scaledTo);
+            present.drawScaled(targets, kept.framebuffer(), at, *scaledTo);
+        else if (as == Shown::Bytes)
+            present.draw(targets, kept, at);
         else
-            present.draw(targets, framebuffer.id(), at, encoding);
+            present.drawLinear(targets, encoding.id());
         std::vector<glm::u8vec4> upwards(std::size_t(kWindow.x) * kWindow.y), read;
-        glGetTextureImage(id, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                          static_cast<GLsizei>(upwards.size() * sizeof upwards[0]), upwards.data());
+        glBindFramebuffer(GL_READ_FRAMEBUFFER,
+                          as == Shown::Bytes ? kept.framebuffer() : encoding.id());
+        glReadPixels(0, 0, kWindow.x, kWindow.y, GL_RGBA, GL_UNSIGNED_BYTE, upwards.data());
         gl::throwOnError();
         for (int y = kWindow.y - 1; y >= 0; --y)
             read.insert(read.end(), upwards.begin() + y * kWindow.x,
@@ -88,7 +94,7 @@ TEST_F(Presented, BytesAreThoseOfAPngButForLightOnABorder) {
         const auto file = tests::freshFolder() / "light.png";
         writePng(file, light);
         const Image decoded = readPng(file).image;
-        const auto shown = window(light, {0, kWindow.y - 256}, Encoding::Program, here);
+        const auto shown = window(light, {0, kWindow.y - 256}, Shown::Bytes, here);
         for (int y = 0; y < 256; ++y)
             for (int x = 0; x < 256; ++x) {
                 const glm::u8vec4 pixel = shown[std::size_t(y) * kWindow.x + x];
@@ -108,7 +114,7 @@ TEST_F(Presented, BytesAreThoseOfAPngButForLightOnABorder) {
 TEST_F(Presented, OnlyItsRectangleIsDrawn) {
     const glm::ivec2 at{40, 20}, size{100, 50};
     for (const bool here : {true, false}) {
-        const auto shown = window(Image(size, glm::vec4(1)), at, Encoding::Program, here);
+        const auto shown = window(Image(size, glm::vec4(1)), at, Shown::Bytes, here);
         for (int y = 0; y < kWindow.y; ++y)
             for (int x = 0; x < kWindow.x; ++x) {
                 const int up = kWindow.y - 1 - y;
@@ -123,8 +129,8 @@ TEST_F(Presented, OnlyItsRectangleIsDrawn) {
 TEST_F(Presented, AnSrgbFramebufferEncodesTheSame) {
     // GL allows an encoding to be off by 0.6 of a step (4.5 core, 17.3.9 leaves it to the driver).
     const Image light = trickyLight();
-    const auto byShader = window(light, {0, 0}, Encoding::Program);
-    const auto byFramebuffer = window(light, {0, 0}, Encoding::Framebuffer);
+    const auto byShader = window(light, {0, 0});
+    const auto byFramebuffer = window(light, {0, 0}, Shown::Linear);
     for (std::size_t i = 6; i < byShader.size(); ++i)  // what is no light is left out
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(byFramebuffer[i][c], byShader[i][c], 1) << i;
 }
@@ -159,7 +165,7 @@ TEST_F(Presented, ScaledItIsAllOfThePicture) {
                 glm::vec4(glm::vec3(rampAt((glm::dvec2(x, y) + 0.5) / glm::dvec2(kPicture))), 1);
     for (const glm::ivec2 size : {glm::ivec2(200, 150), {32, 24}, kPicture}) {
         const glm::ivec2 at(11, 7);
-        const auto pixels = window(picture, at, Encoding::Program, true, size);
+        const auto pixels = window(picture, at, Shown::Bytes, true, size);
         for (int y = 0; y < kWindow.y; ++y)
             for (int x = 0; x < kWindow.x; ++x) {
                 const glm::u8vec4 pixel = pixels[std::size_t(y) * kWindow.x + x];

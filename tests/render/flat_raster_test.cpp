@@ -157,6 +157,36 @@ TEST(FlatRaster, BandsOfRowsAreThePictureBitForBit) {
     for (const int rows : {1, 5, 47}) EXPECT_EQ(drawn(everything(), rows), whole) << rows;
 }
 
+TEST(FlatRaster, NothingChangesButWhatItTouches) {
+    constexpr glm::ivec2 kWide{300, 5};
+    FlatMesh mesh;
+    mesh.rect({70, 1}, {75, 2}, glm::vec4(0.5f));
+    mesh.line({150, 0, 0}, {290, 5, 0}, 1, glm::vec4(0.5f));
+    std::vector<glm::vec4> light(std::size_t(kWide.x) * kWide.y);
+    TouchedPixels touched;
+    touched.begin(kWide.x, kWide.y);
+    FlatRaster(mesh, tests::fontFor(kWide), kWide).draw({kWide, 0, kWide.y, &light[0].x}, &touched);
+    int changed = 0, runs = 0, aside = 0;
+    for (int row = 0; row < kWide.y; ++row) {
+        int end = 0;
+        touched.forEachRun(row, [&](int first, int last, bool isTouched) {
+            EXPECT_EQ(first, end) << "each of a row once";
+            end = last;
+            ++runs;
+            for (int x = first; x < last; ++x) {
+                const bool is = light[std::size_t(row) * kWide.x + std::size_t(x)].a > 0;
+                changed += is;
+                aside += !isTouched;
+                EXPECT_TRUE(isTouched || !is) << x << ' ' << row;
+            }
+        });
+        EXPECT_EQ(end, kWide.x);
+    }
+    EXPECT_GT(changed, 100);
+    EXPECT_GT(aside, 5 * 300 / 2) << "or too much is looked at";
+    EXPECT_GT(runs, kWide.y);
+}
+
 TEST(FlatRaster, AGradientPassesThroughItsStops) {
     FlatMesh mesh;
     mesh.gradient({4, 4}, {52, 20}, std::array{glm::vec3(0, 1, 0), glm::vec3(1, 0, 0)});
