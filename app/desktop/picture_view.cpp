@@ -66,7 +66,7 @@ void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect
     rest_.frame(!current, held, Clock::now());
     const bool resting = !playing && rest_.is(Clock::now());
     const bool arriving = current && report_.uploaded < 1;
-    if (!current || arriving || (!isDone() && resting))
+    if (!current || arriving || (!isDone() && resting && !canvas_.waitsForGradients()))
         redraw(*shown, resting && !arriving, choices);
     else if (resting && waitsForError())
         tellError();

@@ -6,7 +6,7 @@
 #include "app/drawing/cell_maker.h"
 #include "app/drawing/gl_steps.h"
 #include "app/drawing/moving_rung.h"
-#include "app/drawing/refinement.h"
+#include "app/drawing/resting.h"
 #include "app/drawing/screen.h"
 #include "app/drawing/telling.h"
 #include "app/exploration/reading.h"
@@ -33,21 +33,6 @@ std::uint64_t labelOf(std::uint64_t cost, const render::Scene& drawn) {
     return cost << 1 | (drawn.cells ? 1 : 0);
 }
 
-// What is on the screen, being refined.
-struct Resting {
-    Screen of;
-    Refinement refinement;
-
-    Resting(render::FrameRenderer& renderer, render::DepthOrder& order, const Screen& screen,
-            Picture picture, std::span<const render::View> eyes, bool atOnce)
-        : of(screen),
-          refinement(renderer, order, std::move(picture), screen.held->onGpu, eyes, atOnce) {}
-    bool is(const Screen& screen, std::span<const render::View> eyes) const {
-        return of.sorted == screen.sorted && of.explorer == screen.explorer &&
-               std::ranges::equal(refinement.eyes(), eyes);
-    }
-};
-
 }  // namespace
 
 struct Canvas::State {
@@ -58,9 +43,10 @@ struct Canvas::State {
     GlSteps steps;
     CellMaker cells;
     std::optional<Screen> screen;
-    Rung rung{Model::Points};        // of what was shown last
-    render::DepthOrder order;        // of pictures at rest
-    std::optional<Resting> resting;  // uses the renderer alone
+    Rung rung{Model::Points};         // of what was shown last
+    render::DepthOrder order;         // of pictures at rest
+    std::optional<Resting> resting;   // uses the renderer alone
+    bool lacksOnlyGradients = false;  // what was refined last
     Telling telling;
 
     // What every frame begins with: brings what is shown and tells of it. `moving`: the eyes for
@@ -120,6 +106,13 @@ struct Canvas::State {
         const render::Splatters& splatters = renderer.splatters();
         return scene.cells && scene.placed.isMesh() && splatters.sumsByGl(scene) &&
                !splatters.holdsCells(scene) && render::GlPieces::bytesOf(scene) > kMost;
+    }
+    // While GL holds a mesh's tetrahedra as they were before there were gradients, and to list them
+    // anew takes long: so.
+    render::Scene asHeld(const render::Scene& scene) const {
+        render::Scene before = scene;
+        before.gradients = nullptr;
+        return listsForLong(scene) && renderer.splatters().holdsCells(before) ? before : scene;
     }
     // What stands there in what was shown last.
     std::optional<render::Picked> pick(const render::View& eye, const glm::dvec2& window) const;
@@ -236,7 +229,7 @@ void Canvas::State::tell(CanvasReport& report, const render::Scene& scene) const
             if (layer.byPoints) report.besideCells += render::pointCount(layer);
     }
     report.lacksCells = lacksCells(scene);
-    report.lacksGradients = scene.cells && !scene.gradients &&
+    report.lacksGradients = scene.cells && !scene.gradients && !cells.gaveUp(*screen->sorted) &&
                             needsGradients(screen->explorer, *screen->sorted, scene.placed);
     report.whole = rung.isWhole() && report.uploaded == 1 && !report.lacks();
 }
@@ -245,12 +238,13 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
                           const CanvasLimits& limits, bool moving, const Show& show,
                           const CanvasScene& scene) {
     state_->resting.reset();
+    state_->lacksOnlyGradients = false;
     CanvasReport report = state_->begin(
         shown, limits, moving ? eyes : std::span<const render::View>(), state_->timer);
     auto& screen = state_->screen;
     if (!screen) return report;
 
-    const render::Scene whole = sceneOf(*screen);
+    const render::Scene whole = moving ? state_->asHeld(sceneOf(*screen)) : sceneOf(*screen);
     render::Legend legend;
     if (scene.legend) {
         legend = state_->telling.legend(*screen, whole, !moving);
@@ -324,9 +318,17 @@ CanvasReport Canvas::refine(const Shown& shown, std::span<const render::View> ey
     state_->tell(report, refinement.scene());
     // Until they are there nothing is left to refine.
     report.refined = done && report.lacks() ? 0 : refinement.share();
+    state_->lacksOnlyGradients = done && report.lacksGradients && !report.lacksCells;
     report.whole = report.whole && done;
     if (done) resting.reset();
     return report;
+}
+
+bool Canvas::waitsForGradients() {
+    const auto& screen = state_->screen;
+    if (!screen || !state_->lacksOnlyGradients) return false;
+    state_->cells.want(*screen);
+    return !screen->sorted->gradientsIfMade(screen->held->placed.mesh());
 }
 
 void Canvas::drawPlacards(std::span<const render::Placard> placards,

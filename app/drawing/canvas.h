@@ -93,6 +93,9 @@ class Canvas {
     // or another function.
     CanvasReport refine(const Shown& shown, std::span<const render::View> eyes,
                         const CanvasLimits& limits, const Show& show);
+    // Whether what refine() has drawn lacks only the light of points' gradients, which are being
+    // made: it would draw the same again.
+    bool waitsForGradients();
     // Draws placards alone: where draw() has nothing to draw.
     void drawPlacards(std::span<const render::Placard> placards, std::span<const render::View> eyes,
                       const Show& show);

@@ -6,29 +6,42 @@
 namespace app {
 
 void CellMaker::want(const Screen& screen) {
-    constexpr std::uint64_t kAtOnce = 1 << 18;  // 8 ms
+    constexpr std::uint64_t kCellsAtOnce = 1 << 18;      // 8 ms
+    constexpr std::uint64_t kGradientsAtOnce = 1 << 15;  // 8 ms of solids, 2 of others
     const auto& step = screen.sorted;
     const render::PlacedPoints& placed = screen.held->placed;
+    shared_->wanted = step.get();
     if (!needsCells(screen.explorer, *step, placed)) return;
-    // Null where light does not ask for them.
-    const auto mesh = needsGradients(screen.explorer, *step, placed) ? placed.mesh() : nullptr;
-    if (step->cellsIfMade() && !(mesh && !step->gradientsIfMade(mesh))) return;
-    if (step->grid().count() <= kAtOnce) {
-        step->cells();
-        if (mesh) step->gradients(mesh);
-    } else if (!busy_->exchange(true)) {
-        // What is shown first, which takes a tenth of the time; then whatever may be.
-        std::thread([step, mesh, needed = cellsNeeded(screen.explorer, step->type()),
-                     busy = busy_] {
-            try {
-                step->cells(needed);
-                if (mesh) step->gradients(mesh);
-                step->cells();
-            } catch (...) {  // for want of memory or threads: points are drawn, as before
-            }
-            *busy = false;
-        }).detach();
+    const std::uint64_t points = step->grid().count();
+    if (points <= kCellsAtOnce) step->cells();
+    // Null where they are there, or nothing asks for them.
+    auto mesh = needsGradients(screen.explorer, *step, placed) && shared_->failed != step.get() &&
+                        !step->gradientsIfMade(placed.mesh())
+                    ? placed.mesh()
+                    : nullptr;
+    if (mesh && points <= kGradientsAtOnce) {
+        step->gradients(mesh);
+        mesh = nullptr;
     }
+    if ((step->cellsIfMade() && !mesh) || shared_->busy.exchange(true)) return;
+    // Cells that are shown first, which takes a tenth of the time of all; gradients, unless another
+    // step is shown by then; then whatever may be.
+    std::thread([step, mesh, needed = cellsNeeded(screen.explorer, step->type()),
+                 shared = shared_] {
+        try {
+            step->cells(needed);
+            if (mesh && shared->wanted == step.get()) {
+                try {
+                    step->gradients(mesh);
+                } catch (...) {  // for want of memory
+                    shared->failed = step.get();
+                }
+            }
+            step->cells();
+        } catch (...) {  // for want of memory or threads: points are drawn, as before
+        }
+        shared->busy = false;
+    }).detach();
 }
 
 }  // namespace app

@@ -9,13 +9,20 @@
 
 namespace app {
 
-// Few cells at once, many on a thread of its own, a step after another, which nobody waits for.
+// Few at once, many on a thread of its own, a step after another, which nobody waits for. A step
+// whose gradients cannot be made is not asked again: its tetrahedra keep their own light.
 class CellMaker {
  public:
     void want(const Screen& screen);
+    bool gaveUp(const timeseries::SortedStep& step) const { return shared_->failed == &step; }
 
  private:
-    std::shared_ptr<std::atomic<bool>> busy_ = std::make_shared<std::atomic<bool>>(false);
+    // What the thread sees of it.
+    struct Shared {
+        std::atomic<bool> busy = false;
+        std::atomic<const timeseries::SortedStep*> wanted = nullptr, failed = nullptr;
+    };
+    std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
 };
 
 }  // namespace app

@@ -10,23 +10,35 @@
 
 namespace render {
 
-Present::Present(bool onProcessor)
-    : onProcessor_(onProcessor),
-      encode_("present", shaders::viewport_vert, shaders::present_frag, "#define ENCODE\n"),
-      copy_("present", shaders::viewport_vert, shaders::present_frag, "#define DEPTH\n"),
-      scale_("present", shaders::viewport_vert, shaders::present_frag,
-             "#define ENCODE\n#define SCALED\n") {}
+namespace {
+
+constexpr const char* kEncode = "#define ENCODE\n";
+constexpr const char* kWithDepth = "#define DEPTH\n";
+constexpr const char* kScaled = "#define ENCODE\n#define SCALED\n";
+
+}  // namespace
+
+Present::Present(bool onProcessor) : onProcessor_(onProcessor) {}
+
+const gl::Program& Present::program(const char* defines) const {
+    const auto found = programs_.find(defines);
+    if (found != programs_.end()) return found->second;
+    return programs_
+        .emplace(defines,
+                 gl::Program("present", shaders::viewport_vert, shaders::present_frag, defines))
+        .first->second;
+}
 
 void Present::draw(Targets& shown, KeptPicture& picture, glm::ivec2 at) const {
     if (!shown.srgb8().empty()) return picture.write(shown.srgb8(), at, shown.size());
     const GlTargets& light = shown.onGl();
     if (onProcessor_) return picture.write(encoded(light), at, light.size());
-    drawBy(encode_, {.framebuffer = picture.framebuffer(), .size = light.size(), .at = at}, light);
+    drawBy(kEncode, {.framebuffer = picture.framebuffer(), .size = light.size(), .at = at}, light);
 }
 
 void Present::drawLinear(Targets& shown, GLuint framebuffer) const {
     const GlTargets& light = shown.onGl();
-    drawBy(copy_,
+    drawBy(kWithDepth,
            {.framebuffer = framebuffer,
             .size = light.size(),
             .clearDepth = 1.0f,
@@ -35,10 +47,9 @@ void Present::drawLinear(Targets& shown, GLuint framebuffer) const {
            light);
 }
 
-void Present::drawBy(const gl::Program& program, const gl::Pass& pass,
-                     const GlTargets& light) const {
+void Present::drawBy(const char* defines, const gl::Pass& pass, const GlTargets& light) const {
     gl::begin(pass);
-    glUseProgram(program.id());
+    glUseProgram(program(defines).id());
     glUniform2i(0, pass.at.x, pass.at.y);
     glBindTextureUnit(0, light.light().id());
     glBindTextureUnit(1, light.depth().id());
@@ -64,7 +75,7 @@ std::span<const std::uint8_t> Present::encoded(const GlTargets& light) const {
 void Present::drawScaled(Targets& shown, GLuint framebuffer, glm::ivec2 at, glm::ivec2 size) const {
     const GlTargets& light = shown.onGl();
     gl::begin({.framebuffer = framebuffer, .size = size, .at = at});
-    glUseProgram(scale_.id());
+    glUseProgram(program(kScaled).id());
     glUniform2i(0, at.x, at.y);
     glUniform2i(1, size.x, size.y);
     glUniform2i(2, light.size().x, light.size().y);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "render/frame/kept_picture.h"
@@ -40,10 +42,11 @@ class Present {
 
  private:
     std::span<const std::uint8_t> encoded(const GlTargets& light) const;
-    void drawBy(const gl::Program& program, const gl::Pass& pass, const GlTargets& light) const;
+    void drawBy(const char* defines, const gl::Pass& pass, const GlTargets& light) const;
+    const gl::Program& program(const char* defines) const;
 
     bool onProcessor_;
-    gl::Program encode_, copy_, scale_;
+    mutable std::map<std::string_view, gl::Program> programs_;  // when first drawn with
     gl::VertexArray noVertices_;
     // Kept because new memory costs more than what is done with it.
     mutable std::vector<float> light_;

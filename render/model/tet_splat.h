@@ -35,8 +35,10 @@ struct ValuedTet {
     std::array<double, 4> values;
     double lo, hi;
     OpacityPer per = OpacityPer::Length;
-    // Of the field at the corners, by which light falls on it; null: its own everywhere.
+    // Of the field at the corners, by which light falls on it, in units of so much of the field;
+    // null: its own everywhere.
     const std::array<glm::dvec3, 4>* gradients = nullptr;
+    double gradientUnit = 1;
 };
 
 // Of the cube of its longest edge: a flatter one holds nothing, and its shares are no numbers.
@@ -108,13 +110,14 @@ bool seeField(TetSplat<Real>& s, const ValuedTet& tet, double low, double high,
 // The gradients of f at the corners by which light falls on it, as ValuedTet has the field's.
 template <typename Real>
 std::array<glm::dvec3, 4> gradientsOf(const TetSplat<Real>& s,
-                                      const std::array<glm::dvec3, 4>* ofField) {
+                                      const std::array<glm::dvec3, 4>* ofField, double unit) {
     constexpr double kMost = 1e15;  // its square is a float
+    constexpr double kMostUnits = 1e30;
     std::array<glm::dvec3, 4> of{};
     if (!(s.extent > 0)) return of;
+    const double per = std::min(unit / s.extent, kMostUnits);
     for (std::size_t i = 0; i < 4; ++i)
-        of[i] = glm::clamp(ofField ? (*ofField)[i] / s.extent : s.gradient, glm::dvec3(-kMost),
-                           glm::dvec3(kMost));
+        of[i] = glm::clamp(ofField ? per * (*ofField)[i] : s.gradient, -kMost, kMost);
     return of;
 }
 

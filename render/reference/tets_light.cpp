@@ -42,13 +42,15 @@ std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& fi
                                  std::span<const glm::dvec2> places, unsigned threads) {
     std::vector<std::vector<PassedPart>> parts(kCellParts);
     const double steepness = steepnessOf(scene);
+    const double unit = scene.gradients ? scene.gradients->range() : 1;
     forEachTetSplat(
         scene, field, seen, PixelBins(pixels, size), threads,
         scene.cells ? scene.opacityPer : OpacityPer::Length,
         [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron& tet,
             const TetSplat<double>& s, std::size_t layer, std::size_t pixel) {
             const double perWeight = opticalDepthPerWeight(scene.layers[layer].style.opacity);
-            const auto gradients = tet::gradientsOf(s, scene.gradients ? &tet.gradients : nullptr);
+            const auto gradients =
+                tet::gradientsOf(s, scene.gradients ? &tet.gradients : nullptr, unit);
             for (std::size_t ray = 0; ray < places.size(); ++ray) {
                 const glm::dvec2 window = glm::dvec2(pixels[pixel]) + places[ray];
                 const auto in = partOnRay(seen, s, window);

@@ -186,12 +186,13 @@ template <typename Use>
 void forEachTet(const Scene& scene, std::span<const CellOfLayer> cells, const glm::dvec3* eye,
                 const Use& use) {
     const auto anywhere = [](const auto&) { return true; };
+    const double unit = scene.gradients ? scene.gradients->range() : 1;
     withTets(scene, scene.cells->field(), [&](const auto& tets) {
         for (const CellOfLayer& of : cells)
             tets.forEachTet(of.cell, eye, anywhere, [&](const MeshCells::Tetrahedron& tet) {
                 for (const auto& range : scene.layers[of.layer].cells.ranges)
                     use({tet.at, tet.values, range.lo, range.hi, scene.opacityPer,
-                         scene.gradients ? &tet.gradients : nullptr},
+                         scene.gradients ? &tet.gradients : nullptr, unit},
                         of);
             });
     });

@@ -135,7 +135,8 @@ std::optional<SeenTet> seenTet(const CellView& view, const ValuedTet& tet, std::
     c.across = s.across;
     c.widest = s.widest;
     if (view.light == Light::Off) return c;
-    const std::array<glm::dvec3, 4> gradients = tet::gradientsOf(s, tet.gradients);
+    const std::array<glm::dvec3, 4> gradients =
+        tet::gradientsOf(s, tet.gradients, tet.gradientUnit);
     const glm::vec3 way(view.seen.rays.along(s.centre));
     for (int a = 0; a < 3; ++a) {
         const auto axis = static_cast<std::size_t>(a);

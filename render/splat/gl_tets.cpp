@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kSixAboutADiagonal = 6;
 
-// False where it takes nothing of the range.
+// False where it takes nothing of the range; slopes where light falls on it.
 bool takeTet(GlTet& t, GlTetSlopes& slopes, const ValuedTet& tet, const CellOfLayer& of,
              const Scene& scene, double steep) {
     const auto [low, high] = std::minmax_element(tet.values.begin(), tet.values.end());
@@ -36,7 +36,9 @@ bool takeTet(GlTet& t, GlTetSlopes& slopes, const ValuedTet& tet, const CellOfLa
     t.kind = static_cast<std::uint32_t>(s.crossesLeast) << 4 |
              static_cast<std::uint32_t>(s.crossesMost) << 5 | std::uint32_t{of.layer} << 8;
     t.cell = of.cell;
-    const std::array<glm::dvec3, 4> gradients = tet::gradientsOf(s, tet.gradients);
+    if (scene.light == Light::Off) return true;
+    const std::array<glm::dvec3, 4> gradients =
+        tet::gradientsOf(s, tet.gradients, tet.gradientUnit);
     for (int a = 0; a < 3; ++a)
         slopes[static_cast<std::size_t>(a)] = glm::vec4(
             glm::dvec4(gradients[0][a], gradients[1][a], gradients[2][a], gradients[3][a]));

@@ -21,13 +21,14 @@ namespace render {
 // that cells beside each other have like values on their common face; a bit for each that has one.
 unsigned fillMissing(std::array<double, 8>& corners);
 
-// A field's gradients at the points of a mesh, in axis coordinates. What it is made of must outlive
-// it.
+// A field's gradients at the points of a mesh, in units of its range (PointGradients) a length in
+// axis coordinates. What it is made of must outlive it.
 class MeshGradients {
  public:
     // Null: there are none.
     MeshGradients(const PlacedPoints& placed, const timeseries::PointGradients* gradients)
-        : gradients_(gradients), perLength_(1.0 / placed.scale()) {}
+        : gradients_(gradients),
+          perLength_(1.0 / (placed.scale() * (gradients ? gradients->extent() : glm::dvec3(1)))) {}
     explicit operator bool() const { return gradients_ != nullptr; }
     glm::dvec3 at(std::uint64_t point) const { return perLength_ * gradients_->at(point); }
 
@@ -46,7 +47,7 @@ class MeshCells {
     struct Hexahedron {
         std::array<glm::dvec3, 8> at;  // in axis coordinates
         std::array<double, 8> values;
-        std::array<glm::dvec3, 8> gradients;  // if there are some
+        std::array<glm::dvec3, 8> gradients;  // as MeshGradients has them, if there are some
         unsigned octants = 0;                 // that are seen, as of SeenOctants
     };
     // None where nothing is seen: a corner has no place, or none a value within the clip box. Half

@@ -21,8 +21,7 @@ glm::dvec3 SolidTets::longestOn(const Globe& globe) const {
 }
 
 unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron& tet) const {
-    unsigned seen = 0, there = 0;
-    double sum = 0;
+    unsigned inside = 0;
     for (unsigned i = 0; i < 4; ++i) {
         tet.at[i] = placed_.alongAxes(points[i]);
         if (i > 0 && comesRound_)
@@ -31,13 +30,9 @@ unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron
         tet.corners[i] = points[i];
         if (gradients_) tet.gradients[i] = gradients_.at(points[i]);
         tet.values[i] = timeseries::finiteValue(field_, points[i]);
-        if (std::isnan(tet.values[i])) continue;
-        ++there;
-        sum += tet.values[i] / 4;  // no sum of four overflows
-        if (!clips_ || placed_.inside(points[i], clip_)) seen |= 1u << i;
+        if (!clips_ || placed_.inside(points[i], clip_)) inside |= 1u << i;
     }
-    for (double& value : tet.values)
-        if (std::isnan(value)) value = sum * (4.0 / there);
+    const unsigned seen = inside & timeseries::fillTetrahedron(tet.values);
     if (comesRound_) {
         const auto [least, most] = std::ranges::minmax(tet.at, {}, &glm::dvec3::x);
         if (timeseries::SolidCells::isAboutPole(most.x - least.x, period_.x)) return 0;

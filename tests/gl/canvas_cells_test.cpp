@@ -219,6 +219,50 @@ TEST_F(CanvasOfNoise, CellsOfALargeStepComeLater) {
     EXPECT_EQ(render::readExr(file).views[0].image, image) << "the legend's words, too";
 }
 
+// Each tetrahedron is lit by its own gradient until then.
+TEST_F(CanvasOfNoise, GradientsOfAMeshComeLater) {
+    const auto grid = tests::curvilinear({60, 60, 60}, [](double i, double j, double k) {
+        return glm::dvec3(i + 0.1 * j, j, k + 0.01 * i * j);
+    });
+    world_ = tests::ShownSteps(4, 1);
+    world_.steps[0] = std::make_shared<const timeseries::SortedStep>(tests::noise(grid));
+    world_.dataset.variable.grid = grid;
+    world_.explorer.model = Model::Cells;
+    world_.explorer.layers = {tests::ShownSteps::layer("0.5:0.51", glm::dvec3(0, 0.5, 1))};
+    world_.explorer.layers[0].opacity = 0.9;
+    Canvas canvas(render::SplatterChoice::Cpu);
+    const auto views = canvas.eyesOf(world_.shown());
+    Image image;
+    CanvasReport report;
+    int shown = 0;
+    const auto show = [&](std::size_t, const render::Targets& light) {
+        image = light.readLight();
+        ++shown;
+    };
+    const auto refine = [&] {
+        for (shown = 0; shown == 0;) report = canvas.refine(world_.shown(), views, {}, show);
+    };
+    report = canvas.draw(world_.shown(), views, {}, false, show);
+    EXPECT_FALSE(report.lacksCells);
+    EXPECT_TRUE(report.lacksGradients);
+    EXPECT_FALSE(report.whole);
+    const Image faceted = image;
+    world_.steps[0]->gradients(grid->mesh());  // waits for whoever makes them
+    EXPECT_FALSE(canvas.waitsForGradients());
+    refine();
+    EXPECT_TRUE(report.whole);
+    EXPECT_FALSE(report.lacksGradients);
+    EXPECT_NE(image, faceted);
+    const auto file = tests::freshFolder() / "saved.exr";
+    canvas.save(world_.shown(), file);
+    EXPECT_EQ(render::readExr(file).views[0].image, image);
+    // Without light nobody asks for them.
+    world_.explorer.light = render::Light::Off;
+    world_.explorer.scale = glm::dvec3(1, 1, 2);
+    report = canvas.draw(world_.shown(), views, {}, false, show);
+    EXPECT_TRUE(report.whole);
+}
+
 // The step before stays until then, or its cells would be drawn over the limit.
 TEST_F(CanvasOfBlocks, AMovingStepWhoseCellsAreTooManyWaitsForItsPoints) {
     world_ = tests::ShownSteps(64, 3);

@@ -129,6 +129,16 @@ TEST_F(GlTetsOf, EachOfSeveralScenesIsItsOwn) {
         stretched.scene.cells = world.scene.cells;
         stretched.placed = PlacedPoints(*grid, glm::dvec3(1, 2, 0.5));
         expectTheProcessors(stretched.scene, kOutside, 3e-4);
+        // Nor for that of the light which falls on them before there are gradients.
+        CellWorld lit(tests::noise(grid), {"0.3:0.6"});
+        lit.scene.order = Order::BackToFront;
+        lit.scene.light = Light::Full;
+        const auto gradients = std::exchange(lit.scene.gradients, nullptr);
+        expectTheProcessors(lit.scene, kOutside, 3e-3);
+        const auto own = drawn(lit.scene, kOutside, Channels::Over);
+        lit.scene.gradients = gradients;
+        expectTheProcessors(lit.scene, kOutside, 3e-3);
+        EXPECT_NE(drawn(lit.scene, kOutside, Channels::Over), own);
     }
 }
 

@@ -41,6 +41,23 @@ inline std::pair<double, double> finiteExtent(const Field& field,
     return {lo, hi};
 }
 
+// Corners of a tetrahedron that have no value get the mean of those that have one; a bit for each
+// of these.
+inline unsigned fillTetrahedron(std::array<double, 4>& corners) {
+    unsigned there = 0;
+    int count = 0;
+    double sum = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+        if (std::isnan(corners[i])) continue;
+        there |= 1u << i;
+        ++count;
+        sum += corners[i] / 4;  // no sum of four overflows
+    }
+    for (double& corner : corners)
+        if (std::isnan(corner)) corner = sum * (4.0 / count);
+    return there;
+}
+
 // A cell lies between eight neighbouring points. Beyond the outermost points lie half cells,
 // whose outer corners repeat the points' values, so that cells fill what the points stand for:
 // along each index there is one more of them than of points, and cell i lies between points i - 1

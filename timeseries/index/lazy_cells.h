@@ -47,7 +47,7 @@ class SortedStep::LazyCells {
     std::shared_ptr<const PointGradients> gradientsIfMade(
         const std::shared_ptr<const Mesh>& mesh) const {
         const std::lock_guard lock(held_);
-        return gradients_ && gradients_->mesh() == mesh ? gradients_ : nullptr;
+        return gradients_ && gradients_->areOn(mesh) ? gradients_ : nullptr;
     }
     std::shared_ptr<const PointGradients> gradients(const std::shared_ptr<const Mesh>& mesh,
                                                     unsigned threads, const Field& field) {

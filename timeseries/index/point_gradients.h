@@ -14,26 +14,35 @@ namespace timeseries {
 
 // Of points that have neighbours, the one linear field that differs along each index as the
 // neighbours do (central differences, through the Jacobian); at a border, and beside what is
-// missing, to one side, and where lines come round across where they begin. Along what has no
-// neighbours, or where these are in one place, as at a pole, nothing changes. Of points at the
-// corners of solid cells the mean of what the field has in the tetrahedra about them (SolidCells),
-// by volume; corners without a value, which have the mean of the others, count where there is
-// nothing else. Exact for linear fields. 12 bytes a point.
+// missing, to one side. A line that comes round goes on where it began, and where all of one are in
+// one place, at a pole or on an axis, what lies across that tells. Along what has no neighbours
+// nothing changes. Of points at the corners of solid cells the mean of what the field has in the
+// tetrahedra about them (SolidCells), by volume; corners without a value, which have the mean of
+// the others, count where there is nothing else. Exact for linear fields, to what floats hold of
+// places. 12 bytes a point.
 class PointGradients {
  public:
     // On so many threads; not a bit depends on them. REQUIRES: as many points as the field's, on
     // its grid's mesh or on what a map makes of that, with neighbours or solids().
-    PointGradients(const Field& field, std::shared_ptr<const Mesh> mesh,
+    PointGradients(const Field& field, const std::shared_ptr<const Mesh>& mesh,
                    unsigned threads = sharingThreads());
 
-    const std::shared_ptr<const Mesh>& mesh() const { return mesh_; }
-    // Values a unit of each of the mesh's coordinates; to a float.
-    glm::dvec3 at(std::uint64_t point) const { return unit_ * glm::dvec3(stored_[point]); }
+    bool areOn(const std::shared_ptr<const Mesh>& mesh) const { return mesh_.lock() == mesh; }
+    // Of a field that is counted in units of range(), a unit of extent() along each of the mesh's
+    // coordinates: the file's own units may be so large or small that the quotient of a value and a
+    // length is no number.
+    glm::dvec3 at(std::uint64_t point) const { return kPerStored * glm::dvec3(stored_[point]); }
+    double range() const { return range_; }  // of its values; the greatest double, if it is more
+    const glm::dvec3& extent() const { return extent_; }  // of its places, > 0
     std::uint64_t bytes() const { return stored_.size() * sizeof(stored_[0]); }
 
  private:
-    std::shared_ptr<const Mesh> mesh_;
-    glm::dvec3 unit_{0};
+    // So much of a float's range is kept for what is small beside a value that nobody masked.
+    static constexpr double kPerStored = 0x1p-100;
+
+    std::weak_ptr<const Mesh> mesh_;
+    double range_ = 0;
+    glm::dvec3 extent_{1};
     LargeVector<glm::vec3> stored_;
 };
 

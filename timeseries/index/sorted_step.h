@@ -158,7 +158,7 @@ class SortedStep {
     // Null as long as nobody has made them.
     std::shared_ptr<const CellIndex> cellsIfMade(const std::vector<Interval<double>>& among = {
                                                      kAllNumbers}) const;
-    // What the field changes about its points on this mesh, its grid's or what a map makes of that:
+    // How the field changes about its points on this mesh, its grid's or what a map makes of that:
     // made when it is first asked for, and kept until that of another is. REQUIRES: canHaveCells().
     std::shared_ptr<const PointGradients> gradients(const std::shared_ptr<const Mesh>& mesh) const;
     // Null as long as nobody has made them.
