@@ -14,6 +14,7 @@
 #include "app/files/chosen_axes.h"
 #include "app/picture/picture.h"
 #include "app/picture/resolved.h"
+#include "timeseries/readers/file_stamp.h"
 
 namespace app {
 namespace {
@@ -232,12 +233,19 @@ void Exploration::adopt(LiveSteps::Arrival first) {
     } catch (const std::runtime_error& error) {  // of a sorted step, of which points were read
         return fail(error.what());
     }
-    if (pending_->rest == Pending::Rest::Again) tell(readAgainText(open_->dataset, opened.dataset));
+    if (pending_->rest == Pending::Rest::Again) {
+        std::erase_if(messages_, [](const Message& m) {  // as they asked
+            return m.isError && m.text.find(timeseries::kHasChanged) != std::string::npos;
+        });
+        tell(readAgainText(open_->dataset, opened.dataset));
+    }
     opened.step = first.step;
     opened.sorted = std::move(first.sorted);
     if (playback_.playing && next.files == explorer().files) playback.play();
     if (!open_) {
         history_ = History(next);
+    } else if (pending_->rest == Pending::Rest::Again) {
+        history_.replace(next);  // no choice is another
     } else if (pending_->travel != 0) {
         move(pending_->travel);
         history_.replace(next);

@@ -126,13 +126,19 @@ std::string FilePanel::flaw(const PanelContext& context, const fs::path& path) c
     if (!fs::is_directory(path.parent_path(), gone))
         return fmt::format("There is no folder {}", path.parent_path().string());
     if (*for_ == For::Save) return whyNot(path);
+    if (std::string flaw = flawOfPictures(path); !flaw.empty()) return flaw;
+    return context.exploration.shown() ? whyNot(pictures(context, path).front().file) : "";
+}
+
+// Of their name and their size.
+std::string FilePanel::flawOfPictures(const fs::path& path) const {
     if (!render::isPng(path) && !render::isExr(path)) return "Its name ends in .png or in .exr";
     try {
         parseSize(size_);
     } catch (const ChoiceError& error) {
         return error.what();
     }
-    return context.exploration.shown() ? whyNot(pictures(context, path).front().file) : "";
+    return "";
 }
 
 FrameFiles FilePanel::pictures(const PanelContext& context, const fs::path& path) {
@@ -254,6 +260,8 @@ void FilePanel::drawAnswer(const PanelContext& context, const Rect& at) const {
     };
     if (answered) return tell(answer_, kError);
     if (*for_ != For::Export || !context.exploration.shown()) return;
+    // While it is typed.
+    if (const std::string flaw = flawOfPictures(chosen()); !flaw.empty()) return tell(flaw, kDim);
     const FrameFiles frames = pictures(context, chosen().filename());
     if (const std::string leftOut = frames.leftOut(); !leftOut.empty())
         return tell(leftOut, kError);

@@ -35,6 +35,7 @@ class FilePanel {
     // What speaks against the path, a line: nothing is there to be opened, or nothing can be
     // written there, which is tried. "" when nothing does.
     std::string flaw(const PanelContext& context, const std::filesystem::path& path) const;
+    std::string flawOfPictures(const std::filesystem::path& path) const;
     // The animation's pictures. REQUIRES: something is shown.
     static FrameFiles pictures(const PanelContext& context, const std::filesystem::path& path);
     // What is asked for, in full: an answer is about it until it changes.

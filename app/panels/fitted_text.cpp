@@ -47,6 +47,18 @@ std::string fitting(ImFont& font, std::string_view what, float width) {
     return shortened(what, [&](std::string_view text) { return widthOf(font, text) <= width; });
 }
 
+std::string beginning(ImFont& font, std::string_view what, float width) {
+    if (widthOf(font, what) <= width) return std::string(what);
+    std::size_t bytes = what.size();
+    std::string cut;
+    do {  // whole UTF-8 characters
+        do --bytes;
+        while (bytes > 0 && (static_cast<unsigned char>(what[bytes]) & 0xC0) == 0x80);
+        cut = fmt::format("{}…", what.substr(0, bytes));
+    } while (bytes > 0 && widthOf(font, cut) > width);
+    return cut;
+}
+
 std::string inLines(ImFont& font, std::string_view what, float width) {
     std::string out;
     std::size_t line = 0;  // where it begins in `out`

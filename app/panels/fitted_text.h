@@ -29,6 +29,8 @@ float widthOf(ImFont& font, std::string_view what);
 // The text, cut in its middle with an ellipsis to what fits; in one line of a width.
 std::string shortened(std::string_view what, const std::function<bool(std::string_view)>& fits);
 std::string fitting(ImFont& font, std::string_view what, float width);
+// The longest beginning with an ellipsis that fits, or all of it.
+std::string beginning(ImFont& font, std::string_view what, float width);
 // The text in lines of a width, broken at spaces and after '/', and within a word only where it
 // alone is too long.
 std::string inLines(ImFont& font, std::string_view what, float width);

@@ -18,6 +18,12 @@ std::string titleOf(const timeseries::Variable& v) {
     return out;
 }
 
+// Of what does not fit the name alone, which tells variables apart.
+std::string titleIn(const Theme& theme, const timeseries::Variable& v, float width) {
+    const std::string all = titleOf(v);
+    return widthOf(*theme.text, all) <= width ? all : fitting(*theme.text, v.name, width);
+}
+
 // A line of a popup; closes it when it is pressed.
 bool popupRow(const Theme& theme, std::string_view label, float width, std::string_view keys = {},
               bool enabled = true, bool now = false) {
@@ -87,7 +93,7 @@ void variableChoice(PanelContext& context, const Rect& at, const Shown& shown) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(at.min), im(at.max), p.hovered ? kRaised : kField, 5 * s);
     text(context.theme, {at.min.x + 10 * s, at.centre().y},
-         fitting(*context.theme.text, titleOf(shown.dataset.variable), at.size().x - 36 * s));
+         titleIn(context.theme, shown.dataset.variable, at.size().x - 36 * s));
     drawIcon(list, Icon::Down, {at.max.x - 14 * s, at.centre().y}, s, kDim);
     if (p.clicked) ImGui::OpenPopup("variables");
     ImGui::SetNextWindowPos({at.min.x, at.max.y + 4 * s});
@@ -96,7 +102,8 @@ void variableChoice(PanelContext& context, const Rect& at, const Shown& shown) {
     for (const timeseries::Variable& v : shown.dataset.variables) {
         const bool now = v.name == shown.dataset.variable.name;
         ImGui::PushID(v.name.c_str());
-        if (popupRow(context.theme, titleOf(v), at.size().x - 24 * s, {}, true, now) && !now)
+        const float width = at.size().x - 24 * s;
+        if (popupRow(context.theme, titleIn(context.theme, v, width), width, {}, true, now) && !now)
             edit(context, {}, [&](Explorer& e) { e.variable = v.name; });
         ImGui::PopID();
     }

@@ -57,8 +57,14 @@ void HoverTip::draw(const PanelContext& context) const {
     if (!reading_ || !at_ || !shown) return;
     const Theme& theme = context.theme;
     const float s = theme.scale, line = 19 * s;
-    const std::string value =
-        fmt::format("{}  {}", shown->dataset.variable.name, valueText(*reading_, *shown));
+    // Long names and units end early: a number never does.
+    const Rect& picture = context.layout.picture;
+    const float most = std::min(420 * s, picture.size().x - 40 * s) - 22 * s;
+    std::string value = beginning(*theme.strong, valueText(*reading_, *shown), 0.7f * most);
+    value = fmt::format("{}  {}",
+                        fitting(*theme.strong, shown->dataset.variable.name,
+                                most - widthOf(*theme.strong, "  " + value)),
+                        value);
     std::vector<std::string> places, names;
     for (auto& [name, place] : placeLines(*reading_, *shown)) {
         names.push_back(std::move(name));
@@ -68,19 +74,19 @@ void HoverTip::draw(const PanelContext& context) const {
         names.emplace_back("cell");
         places.push_back(reading_->cell);
     }
-    const std::string between = betweenText(*reading_, *shown);
+    const std::string between = beginning(*theme.small, betweenText(*reading_, *shown), most);
     const float column = nameColumn(*theme.small, names, s);
+    for (std::string& place : places) place = fitting(*theme.small, place, most - column - 14 * s);
     float width = std::max(widthOf(*theme.strong, value), widthOf(*theme.small, between));
     for (const std::string& place : places)
         width = std::max(width, column + 14 * s + widthOf(*theme.small, place));
     const auto lines = static_cast<float>(places.size() + (between.empty() ? 1 : 2));
-    // Below and right of the pointer; on its other side where the picture ends.
-    const Rect& picture = context.layout.picture;
+    // Below and right of the pointer; on its other side where the picture ends, and in it.
     const glm::vec2 size(width + 22 * s, lines * line + 14 * s), pointer = picture.min + *at_;
     glm::vec2 corner = pointer + glm::vec2(16 * s);
     if (corner.x + size.x > picture.max.x) corner.x = pointer.x - 12 * s - size.x;
     if (corner.y + size.y > picture.max.y) corner.y = pointer.y - 12 * s - size.y;
-    corner = glm::floor(corner);
+    corner = glm::floor(glm::max(corner, picture.min + 4 * s));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(im(corner), im(corner + size), faded(kPanel, 0.92f), 5 * s);
     list.AddRect(im(corner), im(corner + size), kLine, 5 * s);

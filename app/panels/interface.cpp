@@ -134,10 +134,11 @@ void Interface::drawPicture(PanelContext& context, const Surroundings& around) {
         top = drawRecoveryOffer(context, around.offers.autosave) + 8 * s;
     drawPictureOverlay(context, top, around.exporting);
     const Rect& picture = context.layout.picture;
-    messages_.draw(
-        context,
-        around.exporting ? exportPlace(picture, s).min.y - 8 * s : messagesBottom(picture, s),
-        around.dt);
+    if (!help_.isOpen())  // which lies over them; they wait
+        messages_.draw(
+            context,
+            around.exporting ? exportPlace(picture, s).min.y - 8 * s : messagesBottom(picture, s),
+            around.dt);
     help_.draw(context);
     // Last: ImGui gives the mouse to the first that lies under it.
     if (shown) {
@@ -327,7 +328,8 @@ bool Interface::close(Exploration& exploration) {
 }
 
 std::optional<std::chrono::nanoseconds> Interface::untilNextChange() const {
-    const auto messages = messages_.untilNextGoes(), hover = hover_.untilNextChange();
+    const auto messages = help_.isOpen() ? std::nullopt : messages_.untilNextGoes();
+    const auto hover = hover_.untilNextChange();
     if (!messages || !hover) return messages ? messages : hover;
     return std::min(*messages, *hover);
 }

@@ -79,25 +79,34 @@ class Labelling {
     }
 
     // The name, ever shorter while it can be read, with its unit, without which numbers mean
-    // nothing; then the unit alone.
+    // nothing, and a long one of these ever shorter; then the unit alone.
     std::array<std::vector<Words>, 2> namesOf(int index) const {
         const timeseries::Axis& axis = page_.grid.axes()[static_cast<std::size_t>(index)];
         std::string name = axis.name, unit = shownUnit(axis.units);
         for (std::string* text : {&name, &unit}) std::ranges::replace(*text, '\n', ' ');
-        if (!unit.empty()) unit = fmt::format("({})", unit);
-        std::vector<Words> names;
-        const auto add = [&](const std::string& beginning) {
-            const bool both = !beginning.empty() && !unit.empty();
-            std::string text = beginning + (both ? " " : "") + unit;
-            if (!text.empty() && (names.empty() || names.back().text != text))
-                names.push_back(wordsOf(page_, std::move(text)));
+        constexpr std::array kLines{12.0, 7.0, 4.0};
+        const auto within = [&](const std::string& text, double lines) {
+            return shortened(page_.font, page_.style, text,
+                             static_cast<float>(lines * page_.line()));
         };
-        add(name);
-        for (const double lines : {12.0, 7.0, 4.0})
-            add(shortened(page_.font, page_.style, name, static_cast<float>(lines * page_.line())));
-        std::vector<Words> unitAlone;
-        if (!unit.empty()) unitAlone.push_back(wordsOf(page_, unit));
-        return {std::move(names), std::move(unitAlone)};
+        std::array<std::vector<Words>, 2> all;
+        auto& [names, unitAlone] = all;
+        const auto add = [&](std::vector<Words>& to, const std::string& beginning,
+                             const std::string& in) {
+            std::string text = beginning;
+            if (!in.empty()) text += fmt::format("{}({})", beginning.empty() ? "" : " ", in);
+            if (!text.empty() && (to.empty() || to.back().text != text))
+                to.push_back(wordsOf(page_, std::move(text)));
+        };
+        add(names, name, unit);
+        for (const double lines : kLines) add(names, within(name, lines), unit);
+        if (within(unit, kLines[0]) != unit)
+            for (const double lines : kLines) add(names, within(name, lines), within(unit, lines));
+        if (!unit.empty()) {
+            add(unitAlone, "", unit);
+            add(unitAlone, "", within(unit, kLines[0]));
+        }
+        return all;
     }
 
     std::vector<Stretch> stretchesBut(int axis) const {

@@ -4,6 +4,7 @@
 
 #include "app/exploration/exploration.h"
 #include "tests/support/exploration_desk.h"
+#include "timeseries/readers/file_stamp.h"
 
 namespace app {
 namespace {
@@ -67,6 +68,21 @@ TEST(ExplorationAgain, OpensOtherDataOfTheSameNameAsAnyOther) {
     EXPECT_EQ(desk.exploration.explorer().variable, "Q");
     EXPECT_EQ(desk.exploration.explorer().layers.size(), 1u) << "a first choice";
     EXPECT_THAT(desk.errors(), testing::IsEmpty());
+}
+
+// What asked for it has been answered, and no choice was made that could be taken back.
+TEST(ExplorationAgain, EndsWhatAskedForItAndIsNoStepOfUndo) {
+    Desk desk({{"a", {.steps = 4, .times = {0, 1, 2, 3}}}});
+    desk.open("a");
+    const Explorer chosen = chooseIn(desk);
+    desk.exploration.tell(std::string("b: ") + timeseries::kHasChanged, true);
+    desk.exploration.tell("something else", true);
+    desk.open("a");
+    EXPECT_THAT(desk.errors(), testing::ElementsAre("something else"));
+    EXPECT_TRUE(desk.exploration.explorer() == chosen);
+    desk.exploration.undo();
+    desk.untilOpened();
+    EXPECT_NE(desk.exploration.explorer().layers, chosen.layers);
 }
 
 TEST(ExplorationAgain, LeavesWhatIsShownWhereNothingCanBeRead) {

@@ -240,7 +240,9 @@ TEST_F(CanvasOfNoise, GradientsOfAMeshComeLater) {
         ++shown;
     };
     const auto refine = [&] {
-        for (shown = 0; shown == 0;) report = canvas.refine(world_.shown(), views, {}, show);
+        shown = 0;
+        do report = canvas.refine(world_.shown(), views, {}, show);
+        while (shown == 0);
     };
     report = canvas.draw(world_.shown(), views, {}, false, show);
     EXPECT_FALSE(report.lacksCells);

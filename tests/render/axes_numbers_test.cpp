@@ -311,6 +311,22 @@ TEST(Axes, ShortNamesAreToldWholeOrNotAtAll) {
     EXPECT_GT(whole, 0u);
 }
 
+// A unit that is a sentence is cut, and the name stays.
+TEST(Axes, NamesStayBesideUnitsThatAreTooWide) {
+    const std::string unit = "kilometres above the reference geoid";
+    const Grid grid({tests::measuredAxis("x", "m", 0, 1, 5), tests::measuredAxis("y", "m", 0, 1, 5),
+                     tests::measuredAxis("height", unit, 0, 1, 5)});
+    std::size_t whole = 0, cut = 0;
+    for (int width = 1800; width >= 700; width -= 20) {
+        const Drawn d(grid, eyeAt(-60, 25, 3.2), {width, 600});
+        whole += d.label("height (" + unit + ")").has_value();
+        for (std::size_t n = 1; n < unit.size(); ++n)
+            cut += d.label("height (" + unit.substr(0, n) + "\u2026)").has_value();
+    }
+    EXPECT_GT(whole, 0u);
+    EXPECT_GT(cut, 0u);
+}
+
 // On a cube whose names are too wide for the margin beside it, they are cut, not moved.
 TEST(Axes, NamesThatAreTooWideAreShortenedBesideTheirEdge) {
     const std::string name = "height above the reference ellipsoid";

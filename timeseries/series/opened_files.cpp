@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -40,13 +39,6 @@ OpenedFiles::OpenedFiles(std::span<const fs::path> files) {
     for (auto& [file, first] : files_) first.sample = sampleOf(file, first.bytes);
 }
 
-std::optional<OpenedFiles::Seen> OpenedFiles::look(const fs::path& file) {
-    struct stat status {};
-    if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
-    return Seen{status.st_dev, status.st_ino, static_cast<std::uint64_t>(status.st_size),
-                status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
-}
-
 void OpenedFiles::expectSame() {
     std::vector<fs::path> files;
     for (const auto& [file, first] : files_) files.push_back(file);
@@ -55,7 +47,7 @@ void OpenedFiles::expectSame() {
 
 void OpenedFiles::expectSame(std::span<const fs::path> files) {
     for (const fs::path& file : files) {
-        const auto now = look(file);
+        const auto now = stampOf(file);
         if (!now) continue;
         const auto [place, isNew] = files_.try_emplace(file);
         First& first = place->second;
@@ -64,12 +56,9 @@ void OpenedFiles::expectSame(std::span<const fs::path> files) {
             continue;
         }
         if (first.seen == *now) continue;
-        const bool hasGrown = now->device == first.seen.device &&
-                              now->number == first.seen.number && now->bytes > first.seen.bytes &&
+        const bool hasGrown = now->isOfSameFile(first.seen) && now->bytes > first.seen.bytes &&
                               !first.sample.empty() && sampleOf(file, first.bytes) == first.sample;
-        if (!hasGrown)
-            throw FileError(fmt::format("{}: it has changed since it was opened: open it again",
-                                        file.string()));
+        if (!hasGrown) throw FileError(fmt::format("{}: {}", file.string(), kHasChanged));
         first.seen = *now;
     }
 }

@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
+
+#include "timeseries/readers/file_stamp.h"
 
 namespace timeseries {
 
@@ -24,18 +25,11 @@ class OpenedFiles {
     void expectSame();  // those that it was made with
 
  private:
-    struct Seen {
-        std::uint64_t device, number, bytes;
-        std::int64_t modified, nanoseconds;
-        friend bool operator==(const Seen&, const Seen&) = default;
-    };
     struct First {
-        Seen seen;
+        FileStamp seen;
         std::uint64_t bytes;  // then
         std::string sample;   // of these; "" of one that may not grow
     };
-    static std::optional<Seen> look(const std::filesystem::path& file);
-
     std::map<std::filesystem::path, First> files_;
 };
 

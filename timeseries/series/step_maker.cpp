@@ -122,8 +122,8 @@ std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std:
         const auto again = [source](const std::string& why) {
             source->store->discard(source->store->pathOf(source->origin), why);
             if (const auto read = source->read()) return SortedStep::build(*read);
-            throw FileError(fmt::format("{}: it has changed since it was opened: open it again",
-                                        source->origin.files.front().string()));
+            throw FileError(
+                fmt::format("{}: {}", source->origin.files.front().string(), kHasChanged));
         };
         try {
             return std::make_shared<const SortedStep>(SortedStep::stored(

@@ -60,6 +60,21 @@ TEST_F(Messages, ThatAreNoErrorsGoByThemselves) {
     EXPECT_EQ(texts(), std::vector<std::string>{"an error"});
 }
 
+TEST_F(Messages, WaitWhileTheHelpLiesOverThem) {
+    desk_.exploration.tell("a note");
+    desk_.frame();
+    const auto wait = desk_.interface.untilNextChange();
+    ASSERT_TRUE(wait);
+    const int whole = static_cast<int>(*wait / 10ms) + 1;
+    desk_.interface.obey(desk_.exploration, Command::Help);
+    desk_.frames(whole);
+    EXPECT_EQ(texts(), std::vector<std::string>{"a note"});
+    EXPECT_FALSE(desk_.interface.untilNextChange()) << "nothing goes by itself";
+    desk_.interface.obey(desk_.exploration, Command::Help);
+    desk_.frames(whole);
+    EXPECT_TRUE(texts().empty());
+}
+
 TEST_F(Messages, BreakAtSpacesAndAfterSlashesAndWithinWordsThatAloneAreTooLong) {
     ImFont& font = *desk_.theme().text;
     const auto lines = [&](std::string_view text, std::string_view longest) {

@@ -68,6 +68,12 @@ bool isLocked(const std::filesystem::path& path) {
     return is;
 }
 
+// Those that are open. Under the lock.
+std::vector<NetcdfFile*>& openFiles() {
+    static std::vector<NetcdfFile*> all;
+    return all;
+}
+
 // A text up to where it ends.
 std::string ended(std::string text) {
     text.resize(std::min(text.size(), text.find('\0')));
@@ -86,6 +92,7 @@ void NetcdfFile::check(int status, std::string_view place, std::string_view expe
 NetcdfFile::NetcdfFile(const std::filesystem::path& path, Header header) : CfFile(path) {
     std::error_code error;
     fileBytes_ = std::filesystem::file_size(path, error);
+    stamp_ = stampOf(path);
     std::ifstream file(path, std::ios::binary);
     char first = 0;
     if (error || !file.get(first)) {
@@ -100,6 +107,7 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& path, Header header) : CfFil
     file.close();
 
     const LibraryLock lock;
+    closeFormer(stamp_);
     if (first != 'C' && isLocked(path))
         fail("", "expected a file that nobody writes, but a program has it locked");
     if (first != 'C' && header == Header::New) {
@@ -131,6 +139,7 @@ std::vector<bool> NetcdfFile::triedTogether(std::span<const std::filesystem::pat
             }
         };
         const LibraryLock lock;
+        for (const std::filesystem::path& path : some) closeFormer(stampOf(path));
         const bool areRead =
             std::ranges::all_of(some, isClassic) || endOfForked(readAll, kMaxHeaderTime).empty();
         tried.resize(tried.size() + some.size(), areRead);
@@ -159,6 +168,7 @@ void NetcdfFile::open() {
         });
         readHeader();
         readStrings();
+        openFiles().push_back(this);
     } catch (...) {
         nc_close(id_);
         throw;
@@ -167,7 +177,23 @@ void NetcdfFile::open() {
 
 NetcdfFile::~NetcdfFile() {
     const LibraryLock lock;
-    nc_close(id_);
+    close();
+}
+
+void NetcdfFile::close() {
+    if (id_ >= 0) nc_close(id_);
+    id_ = -1;
+    std::erase(openFiles(), this);
+}
+
+void NetcdfFile::closeFormer(const std::optional<FileStamp>& now) {
+    for (NetcdfFile* const file : std::vector(openFiles()))
+        if (now && file->stamp_ && file->stamp_->isOfSameFile(*now) && file->stamp_ != now)
+            file->close();
+}
+
+void NetcdfFile::expectOpen() const {
+    if (id_ < 0) throw FileError(fmt::format("{}: {}", path_.string(), kHasChanged));
 }
 
 std::vector<std::filesystem::path> NetcdfFile::sources() const {
@@ -210,6 +236,7 @@ std::vector<Number> NetcdfFile::numbers(const NcVariable& variable) const {
     if (enums_.contains(variable.name)) return numbersOfEnum(variable, count);
     std::vector<Number> values(count);
     const LibraryLock lock;
+    expectOpen();
     const auto fill = [&](auto get, auto zero, auto number) {
         std::vector<decltype(zero)> stored(count);
         check(get(variable.groupId, variable.id, stored.data()), place, "values that can be read");
@@ -243,6 +270,7 @@ void NetcdfFile::read(const NcVariable& variable, std::span<const std::size_t> s
                       std::span<const std::size_t> count, void* values) const {
     const std::string place = placeOf(variable);
     const LibraryLock lock;
+    expectOpen();
     if (enums_.contains(variable.name)) {
         if (!readHdf5Enum(path_, variable.name, *variable.type, start, count, values))
             fail(place, "expected numbers that can be read, but HDF5 reads none");
@@ -280,6 +308,7 @@ std::optional<std::vector<std::string>> NetcdfFile::texts(const NcVariable& vari
     std::string text(count * length, '\0');
     if (!text.empty()) {
         const LibraryLock lock;
+        expectOpen();
         nc_type type = NC_NAT;
         check(nc_inq_vartype(variable.groupId, variable.id, &type), place, "a type");
         if (type != NC_CHAR) return std::nullopt;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "timeseries/readers/cf/cf_file.h"
+#include "timeseries/readers/file_stamp.h"
 #include "timeseries/readers/netcdf/hdf5_elsewhere.h"
 #include "timeseries/readers/netcdf/hdf5_enums.h"
 
@@ -22,9 +23,13 @@ class NetcdfFile final : public CfFile {
     // A new file's header may crash HDF5 or keep it forever, so that it is read in a copy of this
     // process first; a known one was read before.
     enum class Header { New, Known };
-    // Reads the header. Throws FileError, also when a classic file lacks values it declares.
+    // Reads the header. Throws FileError, also when a classic file lacks values it declares. Those
+    // that are open of the same file, which has changed since, are closed: HDF5 has one of all that
+    // have it open, and would give what it knows of it. Whoever reads from them is told.
     NetcdfFile(const std::filesystem::path& path, Header header);
     ~NetcdfFile() override;
+    NetcdfFile(const NetcdfFile&) = delete;
+    NetcdfFile& operator=(const NetcdfFile&) = delete;
     // Of each of these whether its header need not be New: copies of this process have read those
     // of many one after the other, or refused them. A copy for each takes 30 ms.
     static std::vector<bool> triedTogether(std::span<const std::filesystem::path> paths);
@@ -55,6 +60,11 @@ class NetcdfFile final : public CfFile {
     std::string tooLarge(ValueType type, std::uint64_t points, std::uint64_t chunkBytes) const;
     std::vector<Number> numbersOfEnum(const NcVariable& variable, std::uint64_t count) const;
     void open();
+    void close();
+    // What is open of such a file as it was before.
+    static void closeFormer(const std::optional<FileStamp>& now);
+    // Numbers of a file that was closed are those of others then.
+    void expectOpen() const;
     void readHeader();
     void addEnums();
     void readStrings();
@@ -70,7 +80,8 @@ class NetcdfFile final : public CfFile {
 
     std::uint64_t fileBytes_ = 0;
     double freeBytes_ = 1 << 20;  // of values that the file need not have
-    int id_ = -1;
+    int id_ = -1;                 // -1: closed
+    std::optional<FileStamp> stamp_;
     Hdf5Elsewhere elsewhere_;
     Hdf5Enums enums_;
     std::vector<int> dimensionIds_;  // the library's, beside header_.dimensions
