@@ -42,6 +42,16 @@ std::filesystem::path suggested(const Exploration& exploration, const char* endi
     return std::filesystem::path(shown->dataset.name).stem().string() + ending;
 }
 
+// The first of the files that are open, where its folder is there.
+std::filesystem::path besideShown(const Exploration& exploration) {
+    const std::vector<std::filesystem::path>& files = exploration.explorer().files;
+    std::error_code gone;
+    if (!exploration.shown() || files.empty()) return {};
+    const std::filesystem::path& first = files.front();
+    return std::filesystem::is_directory(first.parent_path(), gone) ? first
+                                                                    : std::filesystem::path();
+}
+
 // A cross in a ring.
 void mark(ImDrawList& list, glm::vec2 at, float s) {
     list.AddCircle(im(at), 7 * s, faded(kGround, 0.8f), 24, 3.5f * s);
@@ -253,7 +263,7 @@ bool Interface::obey(Exploration& exploration, Command command) {
         case Command::Headset:
             return false;
         case Command::Open:
-            return files_.ask(FilePanel::For::Open, {}), true;
+            return files_.ask(FilePanel::For::Open, besideShown(exploration)), true;
         case Command::Undo:
             if (exploration.canUndo()) exploration.undo();
             return true;

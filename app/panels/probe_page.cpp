@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/annotate/ticks.h"
 #include "render/points/globe.h"
 
 namespace app::panels {
@@ -13,6 +14,12 @@ namespace {
 void line(const Theme& theme, Form& form, std::string_view label, std::string_view what) {
     const Rect row = form.row(label);
     text(theme, {row.min.x, row.centre().y}, fitting(*theme.text, what, row.size().x));
+}
+
+// What is between two longitudes lies neither east nor west.
+std::string unitBetween(const std::string& unit) {
+    const std::string shown = render::shownUnit(unit);
+    return shown == "°E" || shown == "°W" || shown == "°N" || shown == "°S" ? "°" : unit;
 }
 
 // As one length where all axes have one unit, or along the Earth's surface, and along each axis.
@@ -31,7 +38,7 @@ void ruler(PanelContext& context, Form& form, const Reading& a, const Reading& b
         const timeseries::Axis& axis = axes[static_cast<std::size_t>(i)];
         if (axis.coordinates.size() > 1)
             line(context.theme, form, "Δ " + axis.name,
-                 withUnit(fmt::format("{:.6g}", apart[i]), axis.units));
+                 withUnit(fmt::format("{:.6g}", apart[i]), unitBetween(axis.units)));
     }
 }
 

@@ -99,7 +99,7 @@ TEST_F(DeskKeyboard, OpensAFileFromTheMenu) {
     tabTo(*desk_, {{right - 28, header.min.y + 12}, {right, header.min.y + 40}});
     desk_->press("Return");
     desk_->press("Return");  // its first line: Open
-    desk_->type("ramp.nrrd");
+    desk_->type((folder() / "ramp.nrrd").string());
     desk_->press("Return");
     desk_->waitForTitle("ramp.nrrd · ");
 }
