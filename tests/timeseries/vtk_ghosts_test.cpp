@@ -1,7 +1,13 @@
-// Ghost cells of grids whose points lie along indices: points of ghosts alone are missing.
+// Ghost cells: points of ghosts alone are missing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <vtkIdList.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <array>
 #include <random>
@@ -111,6 +117,45 @@ TEST(VtkGhosts, PointsOfGhostCellsAloneAreMissing) {
             EXPECT_EQ(reader->read(indexOf(*reader, "c"), 0).missing, ghosts) << type;
             EXPECT_EQ(reader->variables()[p].missing, "ghost and blanked, by vtkGhostType");
         }
+}
+
+// Cell by cell they are the same as along indices.
+TEST(VtkGhosts, PointsOfGhostCellsAloneAreMissingOfListedCells) {
+    std::mt19937 random(13);
+    const std::array<int, 6> extent{0, 4, 0, 3, 0, 2};
+    std::vector<unsigned char> flags;
+    std::vector<bool> ghosts;
+    for (int i = 0; i < 4 * 3 * 2; ++i) {
+        ghosts.push_back(i < 6 || random() % 2 == 0);
+        flags.push_back(ghosts.back() ? 1 : 0);
+    }
+    const auto along = flagged("StructuredGrid", extent, flags);
+    const vtkNew<vtkUnstructuredGrid> listed;
+    const vtkNew<vtkPoints> points;
+    for (vtkIdType i = 0; i < along->GetNumberOfPoints(); ++i)
+        points->InsertNextPoint(along->GetPoint(i));
+    listed->SetPoints(points);
+    for (vtkIdType i = 0; i < along->GetNumberOfCells(); ++i) {
+        const vtkNew<vtkIdList> corners;
+        along->GetCellPoints(i, corners);
+        listed->InsertNextCell(along->GetCellType(i), corners);
+    }
+    listed->GetPointData()->ShallowCopy(along->GetPointData());
+    listed->GetCellData()->ShallowCopy(along->GetCellData());
+    const auto expected = bruteForce(ghosts, pointsIn(extent));
+    ASSERT_NE(std::ranges::find(expected, true), expected.end());
+    for (const bool isLegacy : {false, true}) {
+        const auto path = freshFolder() / (isLegacy ? "cells.vtk" : "cells.vtu");
+        if (isLegacy)
+            writeWith<vtkUnstructuredGridWriter>(path, listed);
+        else
+            writeWith<vtkXMLUnstructuredGridWriter>(path, listed);
+        const auto reader = open(path);
+        const std::size_t p = indexOf(*reader, "p");
+        EXPECT_EQ(reader->read(p, 0).missing, expected) << isLegacy;
+        EXPECT_EQ(reader->read(indexOf(*reader, "c"), 0).missing, ghosts);
+        EXPECT_EQ(reader->variables()[p].missing, "ghost and blanked, by vtkGhostType");
+    }
 }
 
 TEST(VtkGhosts, OfPointsAndOfCellsAreMissingAlsoInLegacyFiles) {

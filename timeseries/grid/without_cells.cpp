@@ -53,6 +53,18 @@ std::vector<bool> pointsOfGhosts(std::vector<bool> ghosts,
     return ghosts;
 }
 
+std::vector<bool> pointsOfGhosts(const std::vector<bool>& ghosts, const UnstructuredGrid& grid) {
+    if (std::ranges::find(ghosts, true) == ghosts.end()) return {};
+    std::vector<bool> points(grid.points.size());
+    for (const bool ofGhosts : {true, false})
+        for (std::size_t cell = 0; cell < ghosts.size(); ++cell) {
+            if (ghosts[cell] != ofGhosts) continue;
+            for (const std::uint32_t corner : listOf(grid.corners, grid.ends, cell))
+                if (corner < points.size()) points[corner] = ofGhosts;
+        }
+    return points;
+}
+
 void leaveOut(const std::vector<bool>& more, std::vector<bool>& missing) {
     if (missing.empty()) missing = more;
     for (std::size_t i = 0; i < more.size(); ++i)

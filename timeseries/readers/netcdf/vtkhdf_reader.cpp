@@ -120,7 +120,9 @@ void VtkHdfReader::add(ArrayOf source, const ComponentVariable& component) {
     variable.name = component.name;
     variable.type = component.type;
     variable.storedAs = component.storedAs + (source.atPoints ? "" : ", at cells");
-    if (vtkHdfGhosts(file_.header(), source.atPoints)) variable.missing = kVtkHdfMissing;
+    // Points of ghost cells alone are, too.
+    if (vtkHdfGhosts(file_.header(), false) || vtkHdfGhosts(file_.header(), source.atPoints))
+        variable.missing = kVtkHdfMissing;
     open(0);
     variable.grid = gridAt(0, source.atPoints);
     variable.time = time_;
@@ -178,6 +180,8 @@ Field VtkHdfReader::read(std::size_t variable, std::size_t step) {
                source.component.of),
         source.component);
     field.missing = ghostsOf(step, source.atPoints, count);
+    if (source.atPoints)
+        leaveOut(pointsOfGhosts(ghostsOf(step, false, cells_.types.size()), cells_), field.missing);
     return field;
 }
 

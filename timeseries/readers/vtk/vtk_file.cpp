@@ -15,8 +15,9 @@ namespace {
 
 void readGhosts(VtkHeader& header) {
     header.ghostCells = readVtkGhostCells(header);
-    if (!isUnstructured(header.kind))
-        header.pointsOfGhosts = pointsOfGhosts(header.ghostCells, header.size(VtkPlace::Points));
+    header.pointsOfGhosts = isUnstructured(header.kind)
+                                ? pointsOfGhosts(header.ghostCells, header.unstructured)
+                                : pointsOfGhosts(header.ghostCells, header.size(VtkPlace::Points));
 }
 
 }  // namespace

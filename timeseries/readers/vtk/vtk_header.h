@@ -113,7 +113,7 @@ struct VtkHeader {
     std::vector<glm::dvec3> places;
     UnstructuredGrid unstructured;
     std::vector<bool> ghostCells;      // that are another file's, or hidden; empty: none
-    std::vector<bool> pointsOfGhosts;  // along indices: those of ghost cells alone; empty: none
+    std::vector<bool> pointsOfGhosts;  // those of ghost cells alone; empty: none
     std::optional<VtkTime> time;
 
     std::array<std::uint64_t, 3> size(VtkPlace place) const;

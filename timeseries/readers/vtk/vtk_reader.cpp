@@ -42,12 +42,10 @@ OpenedStep frameOf(VtkContents contents) {
     return frame;
 }
 
-// Of points along indices those of ghost cells alone are missing, too.
+// Points of ghost cells alone are missing, too.
 bool hasGhosts(const VtkHeader& header, VtkPlace place) {
     const auto& [atPoints, atCells] = header.ghosts;
-    if (place == VtkPlace::Cells) return atCells;
-    const bool areListed = isUnstructured(header.kind) && header.kind != VtkKind::XmlBlocks;
-    return atPoints || (atCells && !areListed);
+    return atCells || (place == VtkPlace::Points && atPoints);
 }
 
 class VtkReader final : public Reader {
