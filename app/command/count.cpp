@@ -131,7 +131,6 @@ int count(const CountOptions& options) {
     const auto stores = storesFor(dataset.reader->files());
     timeseries::StepMaker maker(std::move(dataset.reader), dataset.variableIndex, kept, stores,
                                 timeseries::StepMaker::Holds::Points, ranges);
-    if (!options.json) printHead(dataset, ranges);
     {
         // The table shows by itself how far it is.
         Progress progress("step", options.json ? steps.size() : 0);
@@ -141,7 +140,9 @@ int count(const CountOptions& options) {
             rows.push_back({step, sorted->statistics(), sorted->count(ranges), {}});
             for (const RangeSet& layer : options.ranges)
                 rows.back().ofLayers.push_back(sorted->count(layer));
-            if (!options.json) print(dataset, options.ranges, rows.back());
+            if (options.json) continue;
+            if (rows.size() == 1) printHead(dataset, ranges);  // no table where there is no row
+            print(dataset, options.ranges, rows.back());
         }
     }
     tellNotes(stores);
