@@ -108,9 +108,8 @@ BENCHMARK(cellsBesidePoints)
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 
-// Coloured by value and in order, lit beside not. Whole frames, the light resolved.
-void cellsLitBesideUnlit(benchmark::State& state) {
-    bench::FireOrTurbulence cells(state.range(0), true);
+// Whole frames, the light resolved.
+void litBesideUnlit(benchmark::State& state, CellsOfRange& cells) {
     PlainFrame frame(cells.scene.step, cells.scene.placed, glm::dvec3(0));
     const auto draw = [&](Light light) {
         cells.scene.light = light;
@@ -119,6 +118,12 @@ void cellsLitBesideUnlit(benchmark::State& state) {
     bench::alternate(
         state, [&] { draw(Light::Off); }, [&] { draw(Light::Full); });
     state.counters["cells"] = static_cast<double>(cellCount(cells.scene.layers[0]));
+}
+
+// Coloured by value and in order, lit beside not.
+void cellsLitBesideUnlit(benchmark::State& state) {
+    bench::FireOrTurbulence cells(state.range(0), true);
+    litBesideUnlit(state, cells);
 }
 BENCHMARK(cellsLitBesideUnlit)
     ->ArgName("points")
@@ -154,14 +159,7 @@ void tetsLitBesideUnlit(benchmark::State& state) {
     field.grid = bench::latticeOneByOne(96, state.range(0) != 0);
     CellsOfRange mesh(std::move(field), 100, true);
     mesh.scene.gradients = mesh.step.gradients(mesh.placed.mesh());
-    PlainFrame frame(mesh.step, mesh.placed, glm::dvec3(0));
-    const auto draw = [&](Light light) {
-        mesh.scene.light = light;
-        frame.draw(mesh.scene, mesh.view);
-    };
-    bench::alternate(
-        state, [&] { draw(Light::Off); }, [&] { draw(Light::Full); });
-    state.counters["cells"] = static_cast<double>(cellCount(mesh.scene.layers[0]));
+    litBesideUnlit(state, mesh);
 }
 BENCHMARK(tetsLitBesideUnlit)
     ->ArgName("solids")

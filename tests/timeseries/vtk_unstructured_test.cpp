@@ -91,9 +91,14 @@ TEST(VtkUnstructured, ListsThatNameWhatIsNotThereAreRefused) {
     };
     const auto lists = [&](const std::string& corners, const std::string& ends,
                            const std::string& types, const std::string& more = "") {
-        return refusal(unstructuredText(
-            kTwelve, "",
-            list("connectivity", corners) + list("offsets", ends) + list("types", types) + more));
+        const std::string all =
+            list("connectivity", corners) + list("offsets", ends) + list("types", types) + more;
+        const std::string why = refusal(unstructuredText(kTwelve, "", all));
+        // Whose points are ghosts' is not asked before. All in the same lines.
+        std::string ghosts = list("vtkGhostType", "1 0", "UInt8");
+        ghosts.pop_back();
+        EXPECT_EQ(refusal(unstructuredText(kTwelve, ghosts, all)), why);
+        return why;
     };
     EXPECT_EQ(lists("0 1 3 6 1 2 4 7", "4 8", "10 10"), "");
     EXPECT_THAT(lists("0 1 3 6 1 2 4 12", "4 8", "10 10"), HasSubstr("cell 1 has point 12 of 12"));

@@ -60,7 +60,7 @@ std::vector<bool> pointsOfGhosts(const std::vector<bool>& ghosts, const Unstruct
         for (std::size_t cell = 0; cell < ghosts.size(); ++cell) {
             if (ghosts[cell] != ofGhosts) continue;
             for (const std::uint32_t corner : listOf(grid.corners, grid.ends, cell))
-                if (corner < points.size()) points[corner] = ofGhosts;
+                points[corner] = ofGhosts;
         }
     return points;
 }

@@ -21,7 +21,7 @@ Mesh meshOfPointsWithout(const std::vector<bool>& ghosts, const UnstructuredGrid
 std::vector<bool> pointsOfGhosts(std::vector<bool> ghosts,
                                  const std::array<std::uint64_t, 3>& points);
 // Of a grid's points those that are corners of ghosts and of no other cell; empty where there are
-// none. Corners need not be points. REQUIRES: as many as cells, or none.
+// none. REQUIRES: no flaw; as many as cells, or none.
 std::vector<bool> pointsOfGhosts(const std::vector<bool>& ghosts, const UnstructuredGrid& grid);
 // Those too.
 void leaveOut(const std::vector<bool>& more, std::vector<bool>& missing);

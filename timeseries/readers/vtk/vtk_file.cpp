@@ -15,9 +15,11 @@ namespace {
 
 void readGhosts(VtkHeader& header) {
     header.ghostCells = readVtkGhostCells(header);
-    header.pointsOfGhosts = isUnstructured(header.kind)
-                                ? pointsOfGhosts(header.ghostCells, header.unstructured)
-                                : pointsOfGhosts(header.ghostCells, header.size(VtkPlace::Points));
+    if (!isUnstructured(header.kind))
+        header.pointsOfGhosts = pointsOfGhosts(header.ghostCells, header.size(VtkPlace::Points));
+    // A flaw is told when the cells are looked at.
+    else if (!header.ghostCells.empty() && flawOf(header.unstructured).empty())
+        header.pointsOfGhosts = pointsOfGhosts(header.ghostCells, header.unstructured);
 }
 
 }  // namespace
