@@ -244,7 +244,8 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
     auto& screen = state_->screen;
     if (!screen) return report;
 
-    const render::Scene whole = moving ? state_->asHeld(sceneOf(*screen)) : sceneOf(*screen);
+    render::Scene whole = moving ? state_->asHeld(sceneOf(*screen)) : sceneOf(*screen);
+    whole.byMiddles = moving;
     render::Legend legend;
     if (scene.legend) {
         legend = state_->telling.legend(*screen, whole, !moving);

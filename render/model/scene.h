@@ -128,6 +128,9 @@ struct Scene {
     std::shared_ptr<const timeseries::PointGradients> gradients = {};
     Lamp lamp = {};
     OpacityPer opacityPer = OpacityPer::Length;
+    // Cells of a mesh in the order of their middles, which is sooner there, and where cells lean or
+    // grow not in the order in which they hide each other.
+    bool byMiddles = false;
 };
 
 inline bool isByCells(const Scene& scene, const Layer& layer) {

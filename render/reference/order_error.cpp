@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -11,14 +12,33 @@
 namespace render {
 namespace {
 
-// As cells are drawn (CellList): by rank, of one rank layer by layer; in an upright cell range by
-// range, in others tetrahedron by tetrahedron, the nearest first.
-void orderAsDrawn(const CellRank& rank, bool isMesh, std::vector<PartInLayer>& parts) {
-    const auto place = [&](const PartInLayer& p) {
-        return std::tuple(rank(p.cell), p.layer, p.cell, isMesh ? 0u : p.range, p.part.from);
-    };
-    std::ranges::stable_sort(parts, {}, place);
-}
+// As cells are drawn (CellList): of one rank layer by layer; in an upright cell range by range, in
+// others tetrahedron by tetrahedron, the nearest first.
+class DrawnOrder {
+ public:
+    DrawnOrder(const Scene& scene, const View& view, unsigned threads)
+        : isMesh_(scene.placed.isMesh()), rank_(scene, view) {
+        if (!isMesh_) return;
+        CellList list(scene, Channels::Over, 0, &rank_, threads);
+        while (!list.done()) list.goOn(std::numeric_limits<std::uint32_t>::max());
+        for (std::uint32_t at = 0; at < list.cells().size(); ++at) {
+            const std::uint32_t cell = list.cells()[at].cell;
+            if (cell >= places_.size()) places_.resize(cell + std::size_t{1});
+            places_[cell] = at;  // of its last layer, as that of its first among other cells
+        }
+    }
+    void put(std::vector<PartInLayer>& parts) const {
+        std::ranges::stable_sort(parts, {}, [&](const PartInLayer& p) {
+            const std::uint32_t at = isMesh_ ? places_[p.cell] : rank_(p.cell);
+            return std::tuple(at, p.layer, p.cell, isMesh_ ? 0u : p.range, p.part.from);
+        });
+    }
+
+ private:
+    bool isMesh_;
+    CellRank rank_;
+    std::vector<std::uint32_t> places_;  // of a mesh's cells, in the list
+};
 
 }  // namespace
 
@@ -41,16 +61,16 @@ void OrderError::add(const timeseries::FieldSlab& slab) {
 
 double OrderError::error() const {
     if (isNone()) return 0;
-    std::optional<CellRank> rank;
-    if (scene_.order != Order::None) rank.emplace(scene_, view_);
+    std::optional<DrawnOrder> order;
+    if (scene_.order != Order::None) order.emplace(scene_, view_, threads_);
     LightOfParts light(scene_.layers);
     double errors = 0, all = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         std::vector<PartInLayer> parts = parts_[i];
         orderAlongRay(parts);
         const glm::dvec3 exact(light.inOrder(parts));
-        if (rank) orderAsDrawn(*rank, scene_.placed.isMesh(), parts);
-        const glm::dvec3 drawn(rank ? light.oneByOne(parts) : light.mixed(parts));
+        if (order) order->put(parts);
+        const glm::dvec3 drawn(order ? light.oneByOne(parts) : light.mixed(parts));
         errors += weights_[i] * glm::dot(drawn - exact, drawn - exact);
         all += weights_[i] * glm::dot(exact, exact);
     }

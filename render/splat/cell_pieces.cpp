@@ -41,6 +41,7 @@ CellList::CellList(const Scene& scene, Channels channels, std::size_t layer,
                    const CellRank* nearestFirst, unsigned threads)
     : scene_(scene),
       count_(cellCount(scene, channels, layer)),
+      sharing_(threads),
       threads_(threadsFor(count_, kListedWorthAThread, threads)),
       listing_(partsFrom(layersOf(scene.layers.size(), channels, layer).first)),
       placing_(listing_),
@@ -68,8 +69,11 @@ std::vector<CellList::Part> CellList::partsFrom(std::size_t layer) const {
 }
 
 void CellList::goOn(std::uint64_t cells) {
+    constexpr std::uint64_t kForOneByFaces = 8;
     cells -= std::min(cells, list(cells));
-    if (rank_ != nullptr && listed_ == count_) place(cells);
+    if (rank_ == nullptr || listed_ < count_) return;
+    if (placed_ < count_) return void(place(cells));
+    if (byFaces_) byFaces_->goOn(cells / kForOneByFaces + 1);
 }
 
 // use(place in the list, cell, part).
@@ -134,6 +138,8 @@ std::uint64_t CellList::place(std::uint64_t cells) {
             cells_.data()[orders_[k].place(ranks_.data()[at])] = cell;
         });
     placed_ += some;
+    if (placed_ == count_ && scene_.placed.isMesh() && !scene_.byMiddles)
+        byFaces_.emplace(scene_, rank_->from(), std::span(cells_.data(), count_), sharing_);
     return some;
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,16 +16,12 @@
 #include "render/model/cell_splat.h"
 #include "render/model/scene.h"
 #include "render/points/view.h"
+#include "render/splat/face_order.h"
 #include "render/splat/solid_tets.h"
 #include "render/together.h"
 #include "timeseries/grid/pages.h"
 
 namespace render {
-
-struct CellOfLayer {
-    std::uint32_t cell;
-    std::uint8_t layer;
-};
 
 // The layers, of so many, that a plane of these channels takes: from the first to before the
 // second. All of them for Over and Count, else `layer`.
@@ -64,8 +61,9 @@ class CellRank {
     }
     // Of a mesh, that of a cell whose middle is there.
     std::uint32_t ofMiddle(const glm::dvec3& middle) const;
-    std::size_t count() const { return count_; }    // all less
-    const glm::ivec3& eye() const { return eye_; }  // of an upright grid, the eye's cell
+    std::size_t count() const { return count_; }      // all less
+    const glm::dvec3& from() const { return from_; }  // of a mesh, the eye in axis coordinates
+    const glm::ivec3& eye() const { return eye_; }    // of an upright grid, the eye's cell
 
  private:
     void takeDistances(const Scene& scene, const View& view);
@@ -116,7 +114,10 @@ class CellList {
              const CellRank* nearestFirst = nullptr, unsigned threads = sharingThreads());
     // Goes through so many, or a few more; all are gone through once, or twice to be put in order.
     void goOn(std::uint64_t cells);
-    bool done() const { return listed_ == count_ && (rank_ == nullptr || placed_ == count_); }
+    bool done() const {
+        return listed_ == count_ && (rank_ == nullptr || placed_ == count_) &&
+               (!byFaces_ || byFaces_->done());
+    }
     // REQUIRES: done().
     std::span<const CellOfLayer> cells() const { return {cells_.data(), count_}; }
 
@@ -137,12 +138,13 @@ class CellList {
 
     const Scene& scene_;
     std::uint64_t count_, listed_ = 0, placed_ = 0;
-    unsigned threads_;
+    unsigned sharing_, threads_;  // that may, and that are worth it
     std::vector<Part> listing_, placing_;
     const CellRank* rank_;              // where they are to be put in order
     std::vector<NearestFirst> orders_;  // of each part, then
     timeseries::Pages<std::uint32_t> ranks_;
     timeseries::Pages<CellOfLayer> cells_;
+    std::optional<FaceOrder> byFaces_;  // of a mesh, when they have been placed
 };
 // All of them at once.
 std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer);

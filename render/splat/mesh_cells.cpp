@@ -153,11 +153,36 @@ glm::dvec3 MeshCells::cornerAt(const glm::uvec3& cell, unsigned corner) const {
         return place;
     };
     const glm::uvec3 point = corners_.pointAt(cell, corner);
+    if (glm::uvec3(corner & 1, corner >> 1 & 1, corner >> 2) + cell - 1u == point)
+        return placeOf(point);  // between the outermost points
     const unsigned x = cell.x + (corner & 1);
     if ((x > 0 && x <= points_.x) || !isSeam(point)) return outwards(point, 0);
     glm::uvec3 other = point;
     other.x = points_.x - 1 - point.x;
     return 0.5 * (outwards(point, 1) + outwards(other, 1));
+}
+
+MeshCells::FarCorners MeshCells::farCorners(const glm::uvec3& cell) const {
+    FarCorners far{.at = {}, .isShared = {true, true, true}};
+    for (unsigned c = 1; c < 8; ++c) far.at[c] = cornerAt(cell, c);
+    if (period_ == glm::dvec3(0)) return far;
+    // The first corner says where a cell is drawn.
+    const glm::dvec3 first = cornerAt(cell, 0);
+    for (std::size_t a = 0; a < 3; ++a) {
+        const glm::dvec3 direct = far.at[std::size_t{1} << a] - first;
+        far.isShared[a] = timeseries::shorterWay(direct, period_) == direct;
+    }
+    return far;
+}
+
+// Two triangles about the diagonal from the face's first corner.
+double MeshCells::sideOfFace(const FarCorners& corners, int axis, const glm::dvec3& eye) const {
+    if (!corners.isShared[static_cast<std::size_t>(axis)]) return 0;
+    const unsigned end = 1u << axis, u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
+    const glm::dvec3& first = corners.at[end];
+    const auto to = [&](unsigned corner) { return way(first, corners.at[end | corner]); };
+    const double side = glm::dot(glm::cross(to(u | v), to(v) - to(u)), eye - first);
+    return isLeft_ ? -side : side;
 }
 
 std::optional<MeshCells::Hexahedron> MeshCells::operator()(const glm::uvec3& cell) const {

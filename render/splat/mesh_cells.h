@@ -17,6 +17,9 @@
 
 namespace render {
 
+// A face of a mesh's cell, as both cells beside it name it.
+using FaceKey = std::array<std::uint32_t, 3>;
+
 // Corners that have no value get the mean of those that have one and are the fewest edges away, so
 // that cells beside each other have like values on their common face; a bit for each that has one.
 unsigned fillMissing(std::array<double, 8>& corners);
@@ -101,6 +104,11 @@ class MeshCells {
         const auto whole = (*this)(at(cell));
         if (whole && mayBeSeen(whole->at)) forEachTet(*whole, eye, use);
     }
+    // use(key, sideOf) for its faces; sideOf(an eye in axis coordinates): > 0 where that is beyond
+    // the face, < 0 where it is on the cell's side, 0 where that is not told, or for the cell
+    // beyond to tell.
+    template <typename Use>
+    void forEachFace(std::uint32_t cell, const Use& use) const;
     // What goes as far along the coordinates of the file's space goes in axis coordinates.
     static glm::dvec3 reachOf(const PlacedPoints& placed, const glm::dvec3& length);
 
@@ -121,7 +129,20 @@ class MeshCells {
     // From an outermost point half a cell on along an index.
     glm::dvec3 beyond(const glm::uvec3& point, int axis, bool before) const;
     bool isSeam(const glm::uvec3& point) const;
+    // All but the first, and whether they are drawn where the cells beyond them have them.
+    struct FarCorners {
+        std::array<glm::dvec3, 8> at;
+        std::array<bool, 3> isShared;  // that of each axis
+    };
+    FarCorners farCorners(const glm::uvec3& cell) const;
+    // Of the face at the cell's end along an axis.
+    double sideOfFace(const FarCorners& corners, int axis, const glm::dvec3& eye) const;
     bool comesRound(const glm::uvec3& point, int axis) const;
+    // Whether the last cell along an axis is beside the first one.
+    bool joinsFirst(const glm::uvec3& cell, int axis) const {
+        const glm::uvec3 point = corners_.pointAt(cell, 0);
+        return comesRound(point, axis) || (axis == 0 && isSeam(point));
+    }
     glm::uvec3 inwardOf(glm::uvec3 point, int axis) const;
     glm::dvec3 acrossLayer(const glm::uvec3& point, int axis) const;
     Hexahedron octantOf(const Hexahedron& cell, unsigned octant) const;
@@ -148,6 +169,25 @@ void MeshCells::forEachTetIn(const Hexahedron& part, const glm::dvec3* eye, cons
             tet.gradients[i] = part.gradients[tet.corners[i]];
         }
         use(tet);
+    }
+}
+
+template <typename Use>
+void MeshCells::forEachFace(std::uint32_t cell, const Use& use) const {
+    const glm::uvec3 here = at(cell);
+    const auto& size = corners_.size();
+    std::optional<FarCorners> corners;  // when they are asked for
+    std::uint32_t step = 1;
+    for (int axis = 0; axis < 3; step *= size[axis++]) {
+        const auto along = static_cast<std::uint32_t>(axis);
+        use(FaceKey{cell, along, 0}, [](const glm::dvec3&) { return 0.0; });
+        const bool isLast = here[axis] + 1 == size[axis];
+        if (isLast && !joinsFirst(here, axis)) continue;
+        const std::uint32_t next = isLast ? cell - here[axis] * step : cell + step;
+        use(FaceKey{next, along, 0}, [&](const glm::dvec3& eye) {
+            if (!corners) corners = farCorners(here);
+            return sideOfFace(*corners, axis, eye);
+        });
     }
 }
 

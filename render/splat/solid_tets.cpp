@@ -20,6 +20,29 @@ glm::dvec3 SolidTets::longestOn(const Globe& globe) const {
                       std::abs(globe.radius(along.z) - globe.radius(0)));
 }
 
+std::uint32_t SolidTets::inFrontOf(const Drawn& part, std::span<const Drawn> parts,
+                                   const glm::dvec3& eye) {
+    const auto& own = part.tet.corners;
+    std::uint32_t before = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const auto& other = parts[k].tet.corners;
+        std::size_t shared = 0, lone = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (std::ranges::find(other, own[i]) != other.end())
+                ++shared;
+            else
+                lone = i;
+        }
+        if (shared != 3) continue;
+        auto at = part.tet.at;
+        const bool isLeft = turnOf(at) < 0;
+        at[lone] = eye;
+        const double turn = turnOf(at);
+        if (isLeft ? turn > 0 : turn < 0) before |= 1u << k;
+    }
+    return before;
+}
+
 unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron& tet) const {
     unsigned inside = 0;
     for (unsigned i = 0; i < 4; ++i) {

@@ -58,6 +58,8 @@ class SolidTets {
         return timeseries::finiteExtent(field_, cells_.corners(cell, room));
     }
     std::uint64_t pointOf(std::uint32_t, unsigned corner) const { return corner; }
+    template <typename Use>
+    void forEachFace(std::uint32_t cell, const Use& use) const;
     template <typename MayBeSeen, typename Use>
     void forEachTet(std::uint32_t cell, const glm::dvec3* eye, const MayBeSeen& mayBeSeen,
                     const Use& use) const;
@@ -66,10 +68,31 @@ class SolidTets {
     using Tetrahedron = MeshCells::Tetrahedron;
     // In whatever direction degrees and heights lead there.
     glm::dvec3 longestOn(const Globe& globe) const;
+    struct Drawn {
+        Tetrahedron tet;
+        unsigned seen;
+        double away = 0;
+    };
+    // pass(part) for each of a cell's before what it hides.
+    template <typename Pass>
+    static void nearestFirst(std::span<Drawn> parts, const glm::dvec3& eye, const Pass& pass);
+    // A bit for each of the parts that share a face with this one and are before it.
+    static std::uint32_t inFrontOf(const Drawn& part, std::span<const Drawn> parts,
+                                   const glm::dvec3& eye);
     // use(tet) for what is seen of it; a bit of `seen` for each corner.
     template <typename Use>
     static void forEachSeen(const Tetrahedron& tet, unsigned seen, const glm::dvec3* eye,
                             const Use& use);
+    // Whether a cell that is drawn where its first corner is has this one elsewhere than others.
+    bool isDrawnElsewhere(std::uint32_t cell, std::uint32_t corner) const {
+        const glm::dvec3 first = placed_.alongAxes(cells_.firstCorner(cell));
+        const glm::dvec3 way = placed_.alongAxes(corner) - first;
+        return timeseries::shorterWay(way, period_) != way;
+    }
+    // Of a face of so many points, the least of which has this place.
+    template <typename PointAt>
+    double sideOfFace(std::uint32_t cell, std::size_t size, std::size_t least,
+                      const PointAt& pointAt, const glm::dvec3& eye) const;
     // All that a tetrahedron is, and which of its corners are seen.
     unsigned take(const std::array<std::uint32_t, 4>& points, Tetrahedron& tet) const;
 
@@ -124,27 +147,89 @@ void SolidTets::forEachSeen(const Tetrahedron& tet, unsigned seen, const glm::dv
     }
 }
 
+template <typename Use>
+void SolidTets::forEachFace(std::uint32_t cell, const Use& use) const {
+    cells_.forEachFace(cell, [&](std::size_t size, const auto& pointAt) {
+        constexpr std::uint32_t kNone = 0xffffffffu;
+        FaceKey key{kNone, kNone, kNone};  // the three least of its points
+        std::size_t least = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+            std::uint32_t point = pointAt(i);
+            if (point < pointAt(least)) least = i;
+            for (std::uint32_t& kept : key)
+                if (point < kept) std::swap(point, kept);
+        }
+        if (comesRound_ && isDrawnElsewhere(cell, pointAt(least))) return;
+        use(key,
+            [&](const glm::dvec3& eye) { return sideOfFace(cell, size, least, pointAt, eye); });
+    });
+}
+
+// The fan from its least point, as it is parted.
+template <typename PointAt>
+double SolidTets::sideOfFace(std::uint32_t cell, std::size_t size, std::size_t least,
+                             const PointAt& pointAt, const glm::dvec3& eye) const {
+    const auto way = [&](const glm::dvec3& from, std::uint32_t to) {
+        const glm::dvec3 direct = placed_.alongAxes(to) - from;
+        return comesRound_ ? timeseries::shorterWay(direct, period_) : direct;
+    };
+    const glm::dvec3 apex = placed_.alongAxes(pointAt(least));
+    timeseries::SolidCells::Room room;
+    const auto corners = cells_.corners(cell, room);
+    glm::dvec3 normal(0), middle(0);
+    glm::dvec3 before = way(apex, pointAt((least + 1) % size));
+    for (std::size_t i = 2; i < size; ++i) {
+        const glm::dvec3 next = way(apex, pointAt((least + i) % size));
+        normal += glm::cross(before, next);
+        before = next;
+    }
+    for (const std::uint32_t corner : corners) middle += way(apex, corner);
+    const double own = glm::dot(normal, middle), side = glm::dot(normal, eye - apex);
+    return own > 0 ? -side : own < 0 ? side : 0;
+}
+
+// As FaceOrder puts cells in order (render/splat/face_order.h). Of very many by their middles.
+template <typename Pass>
+void SolidTets::nearestFirst(std::span<Drawn> parts, const glm::dvec3& eye, const Pass& pass) {
+    constexpr std::size_t kMost = 32;
+    if (parts.size() > 1) {
+        for (Drawn& part : parts) {
+            const auto& at = part.tet.at;
+            part.away = glm::distance(eye, 0.25 * (at[0] + at[1] + at[2] + at[3]));
+        }
+        std::ranges::stable_sort(parts, {}, &Drawn::away);
+    }
+    if (parts.size() <= 1 || parts.size() > kMost) return void(std::ranges::for_each(parts, pass));
+    std::array<std::uint32_t, kMost> before;
+    for (std::size_t k = 0; k < parts.size(); ++k) before[k] = inFrontOf(parts[k], parts, eye);
+    std::uint32_t left = 0xffffffffu >> (kMost - parts.size());
+    while (left != 0) {
+        auto k = static_cast<std::size_t>(std::countr_zero(left));  // of a ring the first
+        for (std::uint32_t some = left; some != 0; some &= some - 1) {
+            const auto free = static_cast<std::size_t>(std::countr_zero(some));
+            if ((before[free] & left) != 0) continue;
+            k = free;
+            break;
+        }
+        left &= ~(1u << k);
+        pass(parts[k]);
+    }
+}
+
 template <typename MayBeSeen, typename Use>
 void SolidTets::forEachTet(std::uint32_t cell, const glm::dvec3* eye, const MayBeSeen& mayBeSeen,
                            const Use& use) const {
-    struct Drawn {
-        Tetrahedron tet;
-        unsigned seen;
-        double away;
-    };
     thread_local std::vector<Drawn> parts;
     parts.clear();
     cells_.forEachTet(cell, [&](const std::array<std::uint32_t, 4>& points) {
         Drawn part{};
         part.seen = take(points, part.tet);
         if (part.seen == 0 || !mayBeSeen(part.tet.at)) return;
-        if (!eye) return forEachSeen(part.tet, part.seen, eye, use);
-        const auto& at = part.tet.at;
-        part.away = glm::distance(*eye, 0.25 * (at[0] + at[1] + at[2] + at[3]));
         parts.push_back(part);
     });
-    std::ranges::stable_sort(parts, {}, &Drawn::away);
-    for (const Drawn& part : parts) forEachSeen(part.tet, part.seen, eye, use);
+    const auto pass = [&](const Drawn& part) { forEachSeen(part.tet, part.seen, eye, use); };
+    if (eye) return nearestFirst(parts, *eye, pass);
+    std::ranges::for_each(parts, pass);
 }
 
 }  // namespace render

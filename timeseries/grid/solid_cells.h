@@ -75,6 +75,9 @@ class SolidCells {
         asm volatile("");
         if (!feet_) __builtin_prefetch(listOf(corners_, ends_, cell).data());
     }
+    // use(size, pointAt): a face of so many points, pointAt(i) round it.
+    template <typename Use>
+    void forEachFace(std::uint64_t cell, const Use& use) const;
     // use(std::array<std::uint32_t, 4>): the points at a tetrahedron's corners, the cell's least
     // first.
     template <typename Use>
@@ -113,12 +116,32 @@ class SolidCells {
 };
 
 template <typename Use>
-void SolidCells::forEachTet(std::uint64_t cell, const Use& use) const {
+void SolidCells::forEachFace(std::uint64_t cell, const Use& use) const {
+    const std::uint8_t ofType = feet_ ? kWedgeCell : types_[cell];
+    if (ofType == kPolyhedron) {
+        const auto list = listOf(faces_, faceEnds_, cell);
+        std::size_t at = 0;
+        while (at < list.size()) {
+            use(std::size_t{list[at]}, [&](std::size_t i) { return list[at + 1 + i]; });
+            at += 1 + list[at];
+        }
+        return;
+    }
     Room room;
     const auto all = corners(cell, room);
-    const std::uint32_t apex = *std::ranges::min_element(all);
-    // The points of a face, so many, round it.
-    const auto overFace = [&](std::size_t size, const auto& pointAt) {
+    const CellType& type = *cellTypeOf(ofType);
+    std::size_t at = 0;
+    for (const std::uint8_t size : type.faceSizes) {
+        use(std::size_t{size}, [&](std::size_t i) { return all[type.faces[at + i]]; });
+        at += size;
+    }
+}
+
+template <typename Use>
+void SolidCells::forEachTet(std::uint64_t cell, const Use& use) const {
+    Room room;
+    const std::uint32_t apex = *std::ranges::min_element(corners(cell, room));
+    forEachFace(cell, [&](std::size_t size, const auto& pointAt) {
         std::size_t least = 0;
         for (std::size_t i = 0; i < size; ++i) {
             if (pointAt(i) == apex) return;
@@ -127,23 +150,7 @@ void SolidCells::forEachTet(std::uint64_t cell, const Use& use) const {
         for (std::size_t i = 1; i + 1 < size; ++i)
             use(std::array{apex, pointAt(least), pointAt((least + i) % size),
                            pointAt((least + i + 1) % size)});
-    };
-    const std::uint8_t ofType = feet_ ? kWedgeCell : types_[cell];
-    if (ofType == kPolyhedron) {
-        const auto list = listOf(faces_, faceEnds_, cell);
-        std::size_t at = 0;
-        while (at < list.size()) {
-            overFace(list[at], [&](std::size_t i) { return list[at + 1 + i]; });
-            at += 1 + list[at];
-        }
-        return;
-    }
-    const CellType& type = *cellTypeOf(ofType);
-    std::size_t at = 0;
-    for (const std::uint8_t size : type.faceSizes) {
-        overFace(size, [&](std::size_t i) { return all[type.faces[at + i]]; });
-        at += size;
-    }
+    });
 }
 
 }  // namespace timeseries
