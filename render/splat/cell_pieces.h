@@ -42,8 +42,8 @@ glm::uvec3 cellOfEye(const Scene& scene, const View& view);
 // cells one by one.
 //
 // Where points lie one by one: by the distance of a cell's middle from the eye. Of neighbours of
-// one shape the one in front is nearer; where cells lean, or grow, a few are passed out of their
-// order. The scene must outlive it then.
+// one shape the one in front is nearer; where cells lean, or grow, a few are out of order, which
+// FaceOrder mends. The scene must outlive it then.
 class CellRank {
  public:
     CellRank(const Scene& scene, const View& view);
@@ -107,7 +107,8 @@ class NearestFirst {
 };
 
 // The cells of a plane, each that is looked at, listed a slice at a time: layer by layer as their
-// candidates lie, or the nearest first. The scene and the rank must outlive it.
+// candidates lie, or the nearest first, those of a mesh in FaceOrder unless the scene is by
+// middles. The scene and the rank must outlive it.
 class CellList {
  public:
     CellList(const Scene& scene, Channels channels, std::size_t layer,

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
-#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "render/splat/solid_tets.h"
 #include "render/together.h"
@@ -12,7 +11,7 @@
 namespace render {
 namespace {
 
-constexpr std::size_t kFacesWorthAThread = 1 << 10;
+constexpr std::size_t kPassedWorthAThread = 1 << 10;
 constexpr std::uint64_t kFacesOfACell = 6;
 constexpr std::uint64_t kFacesAtOnce = 1 << 22;  // 80 MB of them
 constexpr std::uint64_t kFacesOfABucket = 4;
@@ -25,8 +24,18 @@ FaceOrder::FaceOrder(const Scene& scene, const glm::dvec3& eye, std::span<CellOf
     const std::uint64_t faces = kFacesOfACell * list_.size();
     rounds_ = static_cast<std::uint32_t>(faces / kFacesAtOnce + 1);
     buckets_ = static_cast<std::uint32_t>(faces / rounds_ / kFacesOfABucket + 1);
+    withTets(scene_, scene_.cells->field(),
+             [&](const auto& tets) { nodeOf_.assign(tets.count(), kNone); });
+    another_.assign(list_.size(), kNone);
     first_.assign(list_.size(), kNone);
-    enter(list_.size() < kNone ? Phase::Count : Phase::Done);
+    if (list_.size() >= kNone) enter(Phase::Done);
+}
+
+void FaceOrder::find(std::uint64_t cells) {
+    const std::uint64_t end = passed_ + std::min<std::uint64_t>(cells, list_.size() - passed_);
+    for (; passed_ < end; ++passed_)
+        another_[passed_] =
+            std::exchange(nodeOf_[list_[passed_].cell], static_cast<std::uint32_t>(passed_));
 }
 
 void FaceOrder::enter(Phase phase) {
@@ -39,6 +48,7 @@ void FaceOrder::enter(Phase phase) {
         faces_ = timeseries::Pages<Face>(count, timeseries::Filled::Sparsely);
     }
     if (phase == Phase::Walk) {
+        nodeOf_ = {};
         faces_ = timeseries::Pages<Face>();
         before_.assign(list_.begin(), list_.end());
         taken_.resize(list_.size());
@@ -48,12 +58,16 @@ void FaceOrder::enter(Phase phase) {
 void FaceOrder::goOn(std::uint64_t cells) {
     const std::uint64_t all = list_.size();
     switch (phase_) {
+        case Phase::Find:
+            find(cells);
+            if (passed_ == all) enter(Phase::Count);
+            break;
         case Phase::Count:
             forEachFace(cells,
                         [&](std::uint32_t bucket, const FaceKey&, const auto&, std::uint32_t) {
                             std::atomic_ref(ends_[bucket]).fetch_add(1, std::memory_order_relaxed);
                         });
-            if (passed_ == all) enter(Phase::Place);
+            if (passed_ == nodeOf_.size()) enter(Phase::Place);
             break;
         case Phase::Place:
             forEachFace(cells, [&](std::uint32_t bucket, const FaceKey& key, const auto& sideOf,
@@ -65,7 +79,7 @@ void FaceOrder::goOn(std::uint64_t cells) {
                                                                                : side < 0 ? -1
                                                                                           : 0};
             });
-            if (passed_ == all) enter(Phase::Match);
+            if (passed_ == nodeOf_.size()) enter(Phase::Match);
             break;
         case Phase::Match:
             match(cells * buckets_ / std::max<std::uint64_t>(all, 1) + 1);
@@ -80,31 +94,25 @@ void FaceOrder::goOn(std::uint64_t cells) {
     }
 }
 
-std::uint32_t FaceOrder::bucketOf(const FaceKey& key) const {
-    const std::uint64_t mixed = (key[0] * 0x9e3779b97f4a7c15u + key[1]) * 0xbf58476d1ce4e5b9u +
-                                key[2] * 0x94d049bb133111ebu;
-    const std::uint64_t hash = (mixed ^ mixed >> 29) * 0xd6e8feb86659fd93u >> 32;
-    return static_cast<std::uint32_t>(hash * rounds_ * buckets_ >> 32);
-}
-
 template <typename Use>
 void FaceOrder::forEachFace(std::uint64_t cells, const Use& use) {
-    const std::uint64_t some = std::min<std::uint64_t>(cells, list_.size() - passed_);
-    const std::span<const CellOfLayer> part = list_.subspan(passed_, some);
+    const std::uint64_t some = std::min<std::uint64_t>(cells, nodeOf_.size() - passed_);
+    const std::uint64_t allBuckets = std::uint64_t{rounds_} * buckets_;
     withTets(scene_, scene_.cells->field(), [&](const auto& tets) {
-        inParts(some, threadsFor(some, kFacesWorthAThread, threads_),
+        const std::uint64_t keys = tets.faceKeys();
+        const auto pass = [&](std::uint32_t cell, std::uint32_t node) {
+            tets.forEachFace(cell, [&](const FaceKey& key, const auto& sideOf) {
+                const std::uint64_t bucket = key[0] * allBuckets / keys - round_ * buckets_;
+                if (bucket >= buckets_) return;
+                for (std::uint32_t each = node; each != kNone; each = another_[each])
+                    use(static_cast<std::uint32_t>(bucket), key, sideOf, each);
+            });
+        };
+        inParts(some, threadsFor(some, kPassedWorthAThread, threads_),
                 [&](std::size_t first, std::size_t last) {
-                    for (std::size_t i = first; i < last; ++i) {
-                        tets.prefetch([&](std::uint64_t ahead) {
-                            return i + ahead < last ? std::optional(part[i + ahead].cell)
-                                                    : std::nullopt;
-                        });
-                        const auto node = static_cast<std::uint32_t>(passed_ + i);
-                        tets.forEachFace(part[i].cell, [&](const FaceKey& key, const auto& sideOf) {
-                            const std::uint32_t bucket = bucketOf(key) - round_ * buckets_;
-                            if (bucket < buckets_) use(bucket, key, sideOf, node);
-                        });
-                    }
+                    for (std::size_t cell = passed_ + first; cell < passed_ + last; ++cell)
+                        if (nodeOf_[cell] != kNone)
+                            pass(static_cast<std::uint32_t>(cell), nodeOf_[cell]);
                 });
     });
     passed_ += some;
@@ -131,7 +139,7 @@ void FaceOrder::related(std::span<Face> bucket, const Use& use) const {
 
 void FaceOrder::match(std::uint64_t buckets) {
     const std::uint64_t some = std::min<std::uint64_t>(buckets, buckets_ - passed_);
-    const unsigned shared = threadsFor(some, kFacesWorthAThread, threads_);
+    const unsigned shared = threadsFor(some, kPassedWorthAThread, threads_);
     std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(shared);
     together(shared, [&](unsigned k) {
         for (std::uint64_t b = passed_ + some * k / shared; b < passed_ + some * (k + 1) / shared;

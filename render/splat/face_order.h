@@ -32,13 +32,13 @@ class FaceOrder {
     // `eye` in axis coordinates. REQUIRES: scene.placed.isMesh().
     FaceOrder(const Scene& scene, const glm::dvec3& eye, std::span<CellOfLayer> nearestFirst,
               unsigned threads);
-    // Passes over so many of the cells, or a few more; all are passed over four times, or more
-    // often where they are very many.
+    // Passes over so many cells, or a few more; all that are listed are passed over twice, and all
+    // of the mesh as often, or more often where very many are listed.
     void goOn(std::uint64_t cells);
     bool done() const { return phase_ == Phase::Done; }
 
  private:
-    enum class Phase { Count, Place, Match, Walk, Done };
+    enum class Phase { Find, Count, Place, Match, Walk, Done };
     struct Face {
         FaceKey key;
         std::uint32_t node;  // a place in the list
@@ -50,8 +50,9 @@ class FaceOrder {
     };
     static constexpr std::uint32_t kNone = 0xffffffffu;
 
-    std::uint32_t bucketOf(const FaceKey& key) const;
-    // use(face's place among those of this round, key, side, node) of all that so many cells have.
+    void find(std::uint64_t cells);
+    // use(its bucket of this round's, key, side, node) of all that so many of the mesh's cells
+    // have.
     template <typename Use>
     void forEachFace(std::uint64_t cells, const Use& use);
     void match(std::uint64_t buckets);
@@ -65,8 +66,11 @@ class FaceOrder {
     glm::dvec3 eye_;
     std::span<CellOfLayer> list_;
     unsigned threads_;
-    Phase phase_ = Phase::Count;
+    Phase phase_ = Phase::Find;
     std::uint64_t passed_ = 0;  // of what is passed over in this phase
+    // Of each of the mesh's cells a node, and of each node another one of its cell: cells are gone
+    // through as they are numbered, for those beside each other lie beside each other in memory.
+    std::vector<std::uint32_t> nodeOf_, another_;
     // Faces are looked for in rounds, so that few of them are held at once: each has its part of
     // all buckets, in which faces of one key meet.
     std::uint32_t round_ = 0, rounds_, buckets_;

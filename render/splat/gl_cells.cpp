@@ -41,9 +41,9 @@ glm::dvec3 GlCells::keyOf(const Scene& scene, const View& view) const {
     return cellOfEye(scene, view);
 }
 
-std::shared_ptr<const gl::Buffer> GlCells::order(const glm::dvec3& cell,
+std::shared_ptr<const gl::Buffer> GlCells::order(const Scene& scene, const View& view,
                                                  GlPieceOrder& order) const {
-    return order(CellsToOrder{count(), size_, pieces()}, glm::uvec3(cell));
+    return order(CellsToOrder{count(), size_, pieces()}, cellOfEye(scene, view));
 }
 
 }  // namespace render

@@ -37,7 +37,7 @@ class GlCells final : public GlPieces {
  private:
     // The cell that the eye is in, or beside.
     glm::dvec3 keyOf(const Scene& scene, const View& view) const override;
-    std::shared_ptr<const gl::Buffer> order(const glm::dvec3& cell,
+    std::shared_ptr<const gl::Buffer> order(const Scene& scene, const View& view,
                                             GlPieceOrder& order) const override;
 
     glm::uvec3 size_;  // of the grid, in cells

@@ -80,19 +80,20 @@ std::shared_ptr<const gl::Buffer> GlPieceOrder::operator()(const CellsToOrder& c
     return sorted(cells.count, std::max((bits + kBitsOfADigit - 1) / kBitsOfADigit, 1u));
 }
 
-void GlPieceOrder::findKeys(const TetsToOrder& tets, const glm::dvec3& eye, bool ofCells) {
+void GlPieceOrder::findKeys(const TetsToOrder& tets, const glm::dvec3& eye, Keys keys) {
     if (!tetKeys_) tetKeys_ = gl::Program::ofCompute("tet_keys", shaders::tet_keys_comp);
     const double away = glm::length(eye), s = std::max(away, tets.radius);
     const glm::vec4 overS = s > 0 ? glm::vec4(glm::dvec4(eye / s, away / s)) : glm::vec4(0);
     glUseProgram(tetKeys_->id());
     glUniform1ui(0, tets.count);
-    glUniform1i(1, ofCells ? 1 : 0);
+    glUniform1i(1, static_cast<int>(keys));
     glUniform4fv(2, 1, &overS.x);
     glUniform1f(3, s > 0 ? static_cast<float>(1 / s) : 0);
     tets.pieces.bindStorage(0);
     tets.cells.bindStorage(1);
     tets.middles.bindStorage(2);
     sort_.entries().bindStorage(3);
+    if (keys == Keys::CellsPlaces) tets.places->bindStorage(4);
     gl::startFor(tets.count);
 }
 
@@ -100,9 +101,9 @@ std::shared_ptr<const gl::Buffer> GlPieceOrder::operator()(const TetsToOrder& te
                                                            const glm::dvec3& eye) {
     if (tets.count == 0) return std::make_shared<const gl::Buffer>(0);
     sort_.begin(tets.count);
-    findKeys(tets, eye, false);
+    findKeys(tets, eye, Keys::OwnMiddles);
     sort_.sort(0, kDigitsOfAKey);
-    findKeys(tets, eye, true);
+    findKeys(tets, eye, tets.places ? Keys::CellsPlaces : Keys::CellsMiddles);
     return sorted(tets.count, kDigitsOfAKey);
 }
 

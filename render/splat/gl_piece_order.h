@@ -22,6 +22,7 @@ struct TetsToOrder {
     std::uint32_t count;
     double radius;  // of their cells' middles about the origin of the axes
     const gl::Buffer &pieces, &cells, &middles;
+    const gl::Buffer* places;  // of the cells in their order, the nearest first; null: by middles
 };
 
 class GlPieceOrder {
@@ -30,14 +31,16 @@ class GlPieceOrder {
     // From an eye in, or beside, this cell: an order of cells that hide each other, those of one
     // cell with the last first.
     std::shared_ptr<const gl::Buffer> operator()(const CellsToOrder& cells, const glm::uvec3& eye);
-    // From an eye in axis coordinates: cell by cell, and tetrahedra of a cell by the distances of
+    // From an eye in axis coordinates: cell by cell, by their places or the distances of their
+    // middles, and tetrahedra of a cell by the distances of
     // their middles: of the six about a diagonal, where the cell is a brick, that is the order in
     // which they hide each other.
     std::shared_ptr<const gl::Buffer> operator()(const TetsToOrder& tets, const glm::dvec3& eye);
     std::uint64_t bytes() const { return sort_.bytes(); }  // on the GPU
 
  private:
-    void findKeys(const TetsToOrder& tets, const glm::dvec3& eye, bool ofCells);
+    enum class Keys { OwnMiddles, CellsMiddles, CellsPlaces };  // as tet_keys.comp has them
+    void findKeys(const TetsToOrder& tets, const glm::dvec3& eye, Keys keys);
     // Sorts by so many digits of the keys.
     std::shared_ptr<const gl::Buffer> sorted(std::uint32_t count, unsigned digits);
 

@@ -85,10 +85,12 @@ std::pair<std::uint32_t, std::uint32_t> GlPieces::placesOf(Channels channels,
 std::shared_ptr<const gl::Buffer> GlPieces::farthestFirst(const Scene& scene, const View& view,
                                                           GlPieceOrder& by) {
     const glm::dvec3 key = keyOf(scene, view);
-    const auto found = std::ranges::find(ordered_, key, &Ordered::key);
+    const auto found = std::ranges::find_if(ordered_, [&](const Ordered& of) {
+        return of.key == key && of.byMiddles == scene.byMiddles;
+    });
     if (found != ordered_.end()) return found->places;
     if (ordered_.size() == kEyes) ordered_.erase(ordered_.begin());
-    ordered_.push_back({key, order(key, by)});
+    ordered_.push_back({key, scene.byMiddles, order(scene, view, by)});
     return ordered_.back().places;
 }
 

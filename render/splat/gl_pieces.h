@@ -59,7 +59,7 @@ class GlPieces {
  private:
     // The eyes of one such key have one order.
     virtual glm::dvec3 keyOf(const Scene& scene, const View& view) const = 0;
-    virtual std::shared_ptr<const gl::Buffer> order(const glm::dvec3& key,
+    virtual std::shared_ptr<const gl::Buffer> order(const Scene& scene, const View& view,
                                                     GlPieceOrder& order) const = 0;
 
     std::weak_ptr<const timeseries::CellIndex> index_;
@@ -70,6 +70,7 @@ class GlPieces {
     std::vector<std::uint32_t> firsts_;  // of each layer, and the end
     struct Ordered {
         glm::dvec3 key;
+        bool byMiddles;  // as the scene's
         std::shared_ptr<const gl::Buffer> places;
     };
     std::vector<Ordered> ordered_;  // for the eyes that asked last

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -43,6 +44,26 @@ bool takeTet(GlTet& t, GlTetSlopes& slopes, const ValuedTet& tet, const CellOfLa
         slopes[static_cast<std::size_t>(a)] = glm::vec4(
             glm::dvec4(gradients[0][a], gradients[1][a], gradients[2][a], gradients[3][a]));
     return true;
+}
+
+// Of each of these, where it comes, the nearest first.
+std::vector<std::uint32_t> placesInOrder(const Scene& scene, const View& view,
+                                         std::span<const CellOfLayer> cells) {
+    const CellRank rank(scene, view);
+    CellList list(scene, Channels::Over, 0, &rank);
+    while (!list.done()) list.goOn(std::numeric_limits<std::uint32_t>::max());
+    const std::span<const CellOfLayer> inOrder = list.cells();
+    std::vector<std::uint32_t> places(cells.size()), ofCell;
+    for (std::size_t layer = 0; layer < scene.layers.size(); ++layer) {
+        for (std::uint32_t at = 0; at < inOrder.size(); ++at) {
+            if (inOrder[at].layer != layer) continue;
+            if (inOrder[at].cell >= ofCell.size()) ofCell.resize(inOrder[at].cell + std::size_t{1});
+            ofCell[inOrder[at].cell] = at;
+        }
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            if (cells[i].layer == layer) places[i] = ofCell[cells[i].cell];
+    }
+    return places;
 }
 
 }  // namespace
@@ -116,12 +137,11 @@ void GlTets::keep(const Scene& scene, const std::vector<GlTet>& part) {
     Listing& l = *listing_;
     for (const GlTet& piece : part) {
         const std::uint32_t layer = piece.kind >> 8;
-        if (l.middles.empty() || l.lastCell != piece.cell || l.lastLayer != layer) {
+        if (of_.empty() || of_.back().cell != piece.cell || of_.back().layer != layer) {
             const glm::dvec3 middle = middleOfCell(scene, piece.cell);
             radius_ = std::max(radius_, glm::length(middle));
             l.middles.emplace_back(glm::dvec4(middle, 0));
-            l.lastCell = piece.cell;
-            l.lastLayer = layer;
+            of_.push_back({piece.cell, static_cast<std::uint8_t>(layer)});
         }
         l.cells.push_back(static_cast<std::uint32_t>(l.middles.size() - 1));
         ++l.firsts[layer + 1];
@@ -156,8 +176,14 @@ std::uint64_t GlTets::bytes() const {
 
 glm::dvec3 GlTets::keyOf(const Scene&, const View& view) const { return pixelRays(view).eye; }
 
-std::shared_ptr<const gl::Buffer> GlTets::order(const glm::dvec3& eye, GlPieceOrder& order) const {
-    return order(TetsToOrder{count(), radius_, pieces(), *cells_, *middles_}, eye);
+std::shared_ptr<const gl::Buffer> GlTets::order(const Scene& scene, const View& view,
+                                                GlPieceOrder& order) const {
+    std::optional<gl::Buffer> places;
+    if (!scene.byMiddles)
+        places.emplace(std::span<const std::uint32_t>(placesInOrder(scene, view, of_)));
+    return order(
+        TetsToOrder{count(), radius_, pieces(), *cells_, *middles_, places ? &*places : nullptr},
+        keyOf(scene, view));
 }
 
 }  // namespace render

@@ -51,7 +51,6 @@ class GlTets final : public GlPieces {
         std::uint64_t count = 0, sentTets = 0;
         std::vector<std::uint32_t> cells, firsts;
         std::vector<glm::vec4> middles;
-        std::uint32_t lastCell = 0, lastLayer = 0;  // whose middle came last
     };
     void list(const Scene& scene, std::uint64_t cells);
     void keep(const Scene& scene, const std::vector<GlTet>& part);
@@ -59,15 +58,17 @@ class GlTets final : public GlPieces {
 
     // Where the eye is, in axis coordinates.
     glm::dvec3 keyOf(const Scene& scene, const View& view) const override;
-    std::shared_ptr<const gl::Buffer> order(const glm::dvec3& eye,
+    std::shared_ptr<const gl::Buffer> order(const Scene& scene, const View& view,
                                             GlPieceOrder& order) const override;
 
     std::uint64_t mostBytes_;
     std::optional<Listing> listing_;
     std::unique_ptr<gl::Buffer> sending_, slopes_;
     double radius_ = 0;  // of the middles about the origin
-    // Of each piece, which of the cells that follow each other in one layer has it; their middles.
+    // Of each piece, which of the cells that follow each other in one layer has it; their middles,
+    // and they themselves.
     std::optional<gl::Buffer> cells_, middles_;
+    std::vector<CellOfLayer> of_;
 };
 
 }  // namespace render

@@ -109,6 +109,7 @@ class MeshCells {
     // beyond to tell.
     template <typename Use>
     void forEachFace(std::uint32_t cell, const Use& use) const;
+    std::uint64_t faceKeys() const { return count(); }  // a key's first number is less
     // What goes as far along the coordinates of the file's space goes in axis coordinates.
     static glm::dvec3 reachOf(const PlacedPoints& placed, const glm::dvec3& length);
 

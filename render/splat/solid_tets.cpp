@@ -20,6 +20,15 @@ glm::dvec3 SolidTets::longestOn(const Globe& globe) const {
                       std::abs(globe.radius(along.z) - globe.radius(0)));
 }
 
+glm::dvec3 SolidTets::middle(std::uint32_t cell) const {
+    timeseries::SolidCells::Room room;
+    const auto corners = cells_.corners(cell, room);
+    const glm::dvec3 first = placed_.alongAxes(corners.front());
+    glm::dvec3 sum(0);
+    for (const std::uint32_t corner : corners) sum += way(first, corner);
+    return first + sum / static_cast<double>(corners.size());
+}
+
 std::uint32_t SolidTets::inFrontOf(const Drawn& part, std::span<const Drawn> parts,
                                    const glm::dvec3& eye) {
     const auto& own = part.tet.corners;

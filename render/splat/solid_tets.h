@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,13 +28,14 @@ class SolidTets {
  public:
     // REQUIRES: the placed points' mesh, and the field's grid's, has solids().
     SolidTets(const PlacedPoints& placed, const timeseries::Field& field, const IndexBox& clip,
-              const timeseries::PointGradients* gradients = nullptr)
+              const timeseries::PointGradients* gradients = nullptr, bool byMiddles = false)
         : placed_(placed),
           cells_(*placed.mesh()->solids()),
           field_(field),
           clip_(clip),
           gradients_(placed, gradients),
           clips_(!clip.holdsAll()),
+          byMiddles_(byMiddles),
           period_(placed.period()),
           comesRound_(period_ != glm::dvec3(0)),
           mapFrom_(placed.pointsBox().lo.x),
@@ -60,6 +63,7 @@ class SolidTets {
     std::uint64_t pointOf(std::uint32_t, unsigned corner) const { return corner; }
     template <typename Use>
     void forEachFace(std::uint32_t cell, const Use& use) const;
+    std::uint64_t faceKeys() const { return placed_.mesh()->count(); }
     template <typename MayBeSeen, typename Use>
     void forEachTet(std::uint32_t cell, const glm::dvec3* eye, const MayBeSeen& mayBeSeen,
                     const Use& use) const;
@@ -73,9 +77,11 @@ class SolidTets {
         unsigned seen;
         double away = 0;
     };
-    // pass(part) for each of a cell's before what it hides.
+    // pass(part) for each of a cell's before what it hides, as FaceOrder has cells
+    // (render/splat/face_order.h). REQUIRES: the nearest first, and no more.
+    static constexpr std::size_t kMostByFaces = 32;
     template <typename Pass>
-    static void nearestFirst(std::span<Drawn> parts, const glm::dvec3& eye, const Pass& pass);
+    static void inFrontFirst(std::span<const Drawn> parts, const glm::dvec3& eye, const Pass& pass);
     // A bit for each of the parts that share a face with this one and are before it.
     static std::uint32_t inFrontOf(const Drawn& part, std::span<const Drawn> parts,
                                    const glm::dvec3& eye);
@@ -86,12 +92,17 @@ class SolidTets {
     // Whether a cell that is drawn where its first corner is has this one elsewhere than others.
     bool isDrawnElsewhere(std::uint32_t cell, std::uint32_t corner) const {
         const glm::dvec3 first = placed_.alongAxes(cells_.firstCorner(cell));
-        const glm::dvec3 way = placed_.alongAxes(corner) - first;
-        return timeseries::shorterWay(way, period_) != way;
+        return way(first, corner) != placed_.alongAxes(corner) - first;
     }
-    // Of a face of so many points, the least of which has this place.
+    // From a place to a point, the shorter way round.
+    glm::dvec3 way(const glm::dvec3& from, std::uint32_t to) const {
+        const glm::dvec3 direct = placed_.alongAxes(to) - from;
+        return comesRound_ ? timeseries::shorterWay(direct, period_) : direct;
+    }
+    glm::dvec3 middle(std::uint32_t cell) const;
+    // Of a face of so many points, the least of which has this place, and a cell with this middle.
     template <typename PointAt>
-    double sideOfFace(std::uint32_t cell, std::size_t size, std::size_t least,
+    double sideOfFace(const glm::dvec3& middle, std::size_t size, std::size_t least,
                       const PointAt& pointAt, const glm::dvec3& eye) const;
     // All that a tetrahedron is, and which of its corners are seen.
     unsigned take(const std::array<std::uint32_t, 4>& points, Tetrahedron& tet) const;
@@ -101,7 +112,7 @@ class SolidTets {
     const timeseries::Field& field_;
     const IndexBox& clip_;
     MeshGradients gradients_;
-    bool clips_;
+    bool clips_, byMiddles_;  // a cell's tetrahedra come so, as Scene::byMiddles
     glm::dvec3 period_;
     bool comesRound_;
     double mapFrom_, mapTo_;  // where the points are, along what comes round
@@ -114,7 +125,8 @@ template <typename Use>
 void withTets(const Scene& scene, const timeseries::Field& field, const Use& use) {
     const PlacedPoints& placed = scene.placed;
     const timeseries::PointGradients* const gradients = scene.gradients.get();
-    if (!placed.hasNeighbours()) return use(SolidTets(placed, field, scene.clip, gradients));
+    if (!placed.hasNeighbours())
+        return use(SolidTets(placed, field, scene.clip, gradients, scene.byMiddles));
     use(MeshCells(placed, timeseries::CellCorners(field), scene.clip, gradients));
 }
 
@@ -149,6 +161,7 @@ void SolidTets::forEachSeen(const Tetrahedron& tet, unsigned seen, const glm::dv
 
 template <typename Use>
 void SolidTets::forEachFace(std::uint32_t cell, const Use& use) const {
+    std::optional<glm::dvec3> middleOf;  // when it is asked for
     cells_.forEachFace(cell, [&](std::size_t size, const auto& pointAt) {
         constexpr std::uint32_t kNone = 0xffffffffu;
         FaceKey key{kNone, kNone, kNone};  // the three least of its points
@@ -160,49 +173,35 @@ void SolidTets::forEachFace(std::uint32_t cell, const Use& use) const {
                 if (point < kept) std::swap(point, kept);
         }
         if (comesRound_ && isDrawnElsewhere(cell, pointAt(least))) return;
-        use(key,
-            [&](const glm::dvec3& eye) { return sideOfFace(cell, size, least, pointAt, eye); });
+        use(key, [&](const glm::dvec3& eye) {
+            if (!middleOf) middleOf = middle(cell);
+            return sideOfFace(*middleOf, size, least, pointAt, eye);
+        });
     });
 }
 
 // The fan from its least point, as it is parted.
 template <typename PointAt>
-double SolidTets::sideOfFace(std::uint32_t cell, std::size_t size, std::size_t least,
+double SolidTets::sideOfFace(const glm::dvec3& middle, std::size_t size, std::size_t least,
                              const PointAt& pointAt, const glm::dvec3& eye) const {
-    const auto way = [&](const glm::dvec3& from, std::uint32_t to) {
-        const glm::dvec3 direct = placed_.alongAxes(to) - from;
-        return comesRound_ ? timeseries::shorterWay(direct, period_) : direct;
-    };
     const glm::dvec3 apex = placed_.alongAxes(pointAt(least));
-    timeseries::SolidCells::Room room;
-    const auto corners = cells_.corners(cell, room);
-    glm::dvec3 normal(0), middle(0);
+    glm::dvec3 normal(0);
     glm::dvec3 before = way(apex, pointAt((least + 1) % size));
     for (std::size_t i = 2; i < size; ++i) {
         const glm::dvec3 next = way(apex, pointAt((least + i) % size));
         normal += glm::cross(before, next);
         before = next;
     }
-    for (const std::uint32_t corner : corners) middle += way(apex, corner);
-    const double own = glm::dot(normal, middle), side = glm::dot(normal, eye - apex);
+    const double own = glm::dot(normal, middle - apex), side = glm::dot(normal, eye - apex);
     return own > 0 ? -side : own < 0 ? side : 0;
 }
 
-// As FaceOrder puts cells in order (render/splat/face_order.h). Of very many by their middles.
 template <typename Pass>
-void SolidTets::nearestFirst(std::span<Drawn> parts, const glm::dvec3& eye, const Pass& pass) {
-    constexpr std::size_t kMost = 32;
-    if (parts.size() > 1) {
-        for (Drawn& part : parts) {
-            const auto& at = part.tet.at;
-            part.away = glm::distance(eye, 0.25 * (at[0] + at[1] + at[2] + at[3]));
-        }
-        std::ranges::stable_sort(parts, {}, &Drawn::away);
-    }
-    if (parts.size() <= 1 || parts.size() > kMost) return void(std::ranges::for_each(parts, pass));
-    std::array<std::uint32_t, kMost> before;
+void SolidTets::inFrontFirst(std::span<const Drawn> parts, const glm::dvec3& eye,
+                             const Pass& pass) {
+    std::array<std::uint32_t, kMostByFaces> before;
     for (std::size_t k = 0; k < parts.size(); ++k) before[k] = inFrontOf(parts[k], parts, eye);
-    std::uint32_t left = 0xffffffffu >> (kMost - parts.size());
+    std::uint32_t left = 0xffffffffu >> (kMostByFaces - parts.size());
     while (left != 0) {
         auto k = static_cast<std::size_t>(std::countr_zero(left));  // of a ring the first
         for (std::uint32_t some = left; some != 0; some &= some - 1) {
@@ -228,7 +227,14 @@ void SolidTets::forEachTet(std::uint32_t cell, const glm::dvec3* eye, const MayB
         parts.push_back(part);
     });
     const auto pass = [&](const Drawn& part) { forEachSeen(part.tet, part.seen, eye, use); };
-    if (eye) return nearestFirst(parts, *eye, pass);
+    if (eye && parts.size() > 1) {
+        for (Drawn& part : parts) {
+            const auto& at = part.tet.at;
+            part.away = glm::distance(*eye, 0.25 * (at[0] + at[1] + at[2] + at[3]));
+        }
+        std::ranges::stable_sort(parts, {}, &Drawn::away);
+        if (!byMiddles_ && parts.size() <= kMostByFaces) return inFrontFirst(parts, *eye, pass);
+    }
     std::ranges::for_each(parts, pass);
 }
 

@@ -168,6 +168,22 @@ BENCHMARK(tetsLitBesideUnlit)
     ->Iterations(7)
     ->Unit(benchmark::kMillisecond);
 
+// Whole frames of tetrahedra in the order of their cells' faces, beside that of their middles.
+void tetsByFacesBesideMiddles(benchmark::State& state) {
+    timeseries::Field field = bench::turbulence<float>(96);
+    field.grid = bench::latticeOneByOne(96, state.range(0) != 0);
+    CellsOfRange byFaces(field, 100, true), byMiddles(std::move(field), 100, true);
+    byMiddles.scene.byMiddles = true;
+    bench::alternate(
+        state, [&] { byMiddles.draw(Channels::Over); }, [&] { byFaces.draw(Channels::Over); });
+}
+BENCHMARK(tetsByFacesBesideMiddles)
+    ->ArgName("solids")
+    ->Arg(0)
+    ->Arg(1)
+    ->Iterations(7)
+    ->Unit(benchmark::kMillisecond);
+
 // How a field changes about the points of a mesh, beside the list of its cells by value.
 void gradientsBesideCells(benchmark::State& state) {
     timeseries::Field made = bench::turbulence<float>(128);

@@ -353,6 +353,14 @@ def cells_page(part):
         text += ("\nFrames of the tetrahedra of 96³ points lit by the gradients of points, beside not lit; and how long these gradients of "
                  "128³ points take, which a step has once, beside its cells by value.\n\n"
                  + table(["cells", "not lit", "lit", "ratio", "gradients", "to cells by value"], rows))
+    rows = []
+    for solids, kind in enumerate(kinds):
+        f = part(f"tetsByFacesBesideMiddles/solids:{solids}")
+        if f:
+            rows.append([kind, ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"])])
+    if rows:
+        text += ("\nFrames of them put in order by the faces between cells, as at rest and in files, beside the distance of cells' middles, as while the picture moves.\n\n"
+                 + table(["cells", "by middles", "by faces", "ratio"], rows))
     under = [(kind, part(f"cellUnderCursorOfMesh/points:96/thousandths:1000/solids:{solids}")) for solids, kind in enumerate(kinds)]
     if all(f for _, f in under):
         text += "\nUnder the cursor, of " + " and of ".join(

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "render/gl/debug_output.h"
 #include "render/model/rays_across.h"
@@ -66,6 +69,8 @@ TEST_F(GlTetsOf, ColoursLightAndOrderAreTheProcessors) {
         world.scene.opacityPer = OpacityPer::Crossing;
         // Within a cell they come by their middles: where it is bent, a few rays meet two of them
         // the other way round.
+        expectTheProcessorsInEveryLight(world.scene, 3e-4, 1.2e-2);
+        world.scene.byMiddles = true;
         expectTheProcessorsInEveryLight(world.scene, 3e-4, 4e-3);
     }
 }
@@ -133,6 +138,7 @@ TEST_F(GlTetsOf, EachOfSeveralScenesIsItsOwn) {
         CellWorld lit(tests::noise(grid), {"0.3:0.6"});
         lit.scene.order = Order::BackToFront;
         lit.scene.light = Light::Full;
+        lit.scene.byMiddles = true;
         const auto gradients = std::exchange(lit.scene.gradients, nullptr);
         expectTheProcessors(lit.scene, kOutside, 3e-3);
         const auto own = drawn(lit.scene, kOutside, Channels::Over);
@@ -156,7 +162,8 @@ TEST_F(GlTetsOf, AreInOrderOfTheirCellsAndOfTheirOwn) {
         return glm::dvec3(i, j + 0.1 * k, k * k / 14);
     }));
     for (const auto& grid : all) {
-        const CellWorld world(tests::noise(grid), {"0.2:0.6", "0.5:0.7"});
+        CellWorld world(tests::noise(grid), {"0.2:0.6", "0.5:0.7"});
+        world.scene.byMiddles = true;
         const auto pieces = whole(world.scene, GlCellSplatter::mostBytes(), lister_);
         const auto [first, end] = pieces->placesOf(Channels::Over, 0);
         const auto tets = tests::contentsOf<GlTet>(pieces->pieces(), end);
@@ -183,6 +190,33 @@ TEST_F(GlTetsOf, AreInOrderOfTheirCellsAndOfTheirOwn) {
                 before = own;
             }
         }
+    }
+}
+
+// Cell by cell as the processor has them in order; of one cell the last layer first.
+TEST_F(GlTetsOf, AreInTheProcessorsOrderOfCells) {
+    for (const auto& grid : grids()) {
+        const CellWorld world(tests::noise(grid), {"0.2:0.6", "0.5:0.7"});
+        const auto pieces = whole(world.scene, GlCellSplatter::mostBytes(), lister_);
+        const auto [first, end] = pieces->placesOf(Channels::Over, 0);
+        const auto tets = tests::contentsOf<GlTet>(pieces->pieces(), end);
+        const View view = lookFrom({1.2, -2.5, 1}, kSize);
+        GlPieceOrder order;
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> drawn, expected;
+        for (const std::uint32_t place : tests::contentsOf<std::uint32_t>(
+                 *pieces->farthestFirst(world.scene, view, order), end)) {
+            const std::pair of(tets[place].cell, tets[place].kind >> 8);
+            if (drawn.empty() || drawn.back() != of) drawn.push_back(of);
+        }
+        const CellRank rank(world.scene, view);
+        CellList list(world.scene, Channels::Over, 0, &rank);
+        while (!list.done()) list.goOn(1 << 10);
+        const std::set has(drawn.begin(), drawn.end());
+        for (const CellOfLayer& of : list.cells())
+            if (has.contains({of.cell, of.layer})) expected.emplace_back(of.cell, of.layer);
+        std::ranges::reverse(expected);
+        ASSERT_GT(drawn.size(), 50u);
+        EXPECT_EQ(drawn, expected);
     }
 }
 
