@@ -134,14 +134,15 @@ TEST(NetcdfAxes, CoordinatesBoundsAndLinesAreNotListed) {
     file.write(y.variable, evenly(2, 0, 1));
     file.write(x.variable, evenly(3, 0, 1));
     const auto reader = open(file.close());
-    EXPECT_THAT(names(*reader), ElementsAre("v"));
+    EXPECT_THAT(names(*reader), ElementsAre("v", "ensemble:member=0", "ensemble:member=1",
+                                            "ensemble:member=2", "ensemble:member=3"));
     EXPECT_EQ(reader->variables()[0].longName, "what is drawn");
     EXPECT_THAT(reader->variables()[0].notes, IsEmpty());
 }
 
 TEST(NetcdfAxes, WhatIsPassedOverIsToldWhenNothingIsLeft) {
     NetcdfBuilder file("a.nc");
-    const int m = file.dimension("member", 4), y = file.dimension("y", 2),
+    const int m = file.dimension("member", 400), y = file.dimension("y", 2),
               x = file.dimension("x", 2);
     file.variable("v", NC_FLOAT, {m, y, x});
     const Path path = file.close();
@@ -153,7 +154,8 @@ TEST(NetcdfAxes, WhatIsPassedOverIsToldWhenNothingIsLeft) {
                   path.string() +
                       ": expected a numeric variable with at least two spatial "
                       "dimensions, found none; v(member, y, x): the dimension member "
-                      "of 4 is none of x, y, z and time");
+                      "of 400 is none of x, y, z and time, and a variable is shown as 256 at "
+                      "most");
     }
 }
 

@@ -305,8 +305,12 @@ TEST(NetcdfLists, WhatIsNoCoordinateOfSpaceIsNoLevel) {
             file.text(v, "location", "face");
         });
     const auto reader = open(path);
-    ASSERT_EQ(reader->variables().size(), 1u);
+    ASSERT_EQ(reader->variables().size(), 5u);
     EXPECT_EQ(reader->variables()[0].name, "T");
+    for (std::size_t v = 1; v < 5; ++v) {
+        EXPECT_EQ(reader->variables()[v].name, "V:member=" + std::to_string(v - 1));
+        EXPECT_EQ(reader->variables()[v].grid, reader->variables()[0].grid);
+    }
 }
 
 // One variable of cells that take no space costs no other.

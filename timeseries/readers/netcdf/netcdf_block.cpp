@@ -13,6 +13,10 @@ NetcdfBlock blockOf(const FileVariable& variable, std::size_t step, const Slab* 
         block.start[*variable.roles.t] = step;
         block.count[*variable.roles.t] = 1;
     }
+    for (const auto& [position, place] : variable.at) {
+        block.start[position] = place;
+        block.count[position] = 1;
+    }
     const std::array positions{variable.roles.x, variable.roles.y, variable.roles.z};
     if (slab && positions[slab->axis]) {
         block.start[*positions[slab->axis]] = slab->first;

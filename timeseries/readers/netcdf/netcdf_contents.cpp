@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "timeseries/readers/cf/cf_lists.h"
+#include "timeseries/readers/cf/cf_members.h"
 #include "timeseries/readers/cf/cf_mpas.h"
 #include "timeseries/readers/netcdf/netcdf_others.h"
 #include "timeseries/readers/other_formats.h"
@@ -85,17 +87,23 @@ std::vector<const NcVariable*> fieldsOf(const NcHeader& header,
 std::uint64_t stepPoints(const NcHeader& header, const NcVariable& variable, const Roles& roles) {
     double points = 1;
     for (std::size_t i = 0; i < variable.dimensions.size(); ++i)
-        if (roles.t != i) points *= static_cast<double>(header.dimension(variable, i).length);
+        if (roles.t != i && std::ranges::find(roles.extra, i) == roles.extra.end())
+            points *= static_cast<double>(header.dimension(variable, i).length);
     return static_cast<std::uint64_t>(std::min(points, 1e18));
 }
 
 // Why a variable with enough spatial dimensions cannot be drawn; "" when it can.
 std::string obstacle(const CfFile& file, const NcVariable& variable, const Roles& roles) {
     const NcHeader& header = file.header();
+    double members = 1;
     for (const std::size_t i : roles.extra) {
         const NcDimension& extra = header.dimension(variable, i);
-        return fmt::format("the dimension {} of {} is none of x, y, z and time", extra.name,
-                           extra.length);
+        members *= static_cast<double>(extra.length);
+        if (members > kMostMembers)
+            return fmt::format(
+                "the dimension {} of {} is none of x, y, z and time, and a variable is shown as "
+                "{} at most",
+                extra.name, extra.length, kMostMembers);
     }
     std::size_t lengths = 0;
     bool named = true;
@@ -115,7 +123,7 @@ FileVariable describe(const CfFile& file, const FileAxes& fileAxes, const NcVari
                       const std::optional<ColumnPlaces>& list) {
     const NcHeader& header = file.header();
     FileVariable result;
-    result.name = variable.name;
+    result.name = result.stored = variable.name;
     result.longName = variable.text("long_name");
     if (result.longName.empty()) result.longName = variable.text("standard_name");
     result.units = variable.text("units");
@@ -135,6 +143,14 @@ FileVariable describe(const CfFile& file, const FileAxes& fileAxes, const NcVari
                         header.dimension(variable, *roles.t).name));
     result.axes = axesOf(file, fileAxes, variable, roles, geographic, list, result.notes);
     return result;
+}
+
+FileVariable asMember(FileVariable variable, Member member) {
+    variable.at = std::move(member.at);
+    if (member.key.empty()) return variable;
+    variable.name += ':' + member.key;
+    if (!variable.longName.empty()) variable.longName += ", " + member.told;
+    return variable;
 }
 
 }  // namespace
@@ -177,12 +193,15 @@ FileContents contentsOf(const CfFile& file) {
             continue;
         }
         try {
-            contents.variables.push_back(
-                describe(file, fileAxes, variable, roles, geographic, list));
+            const FileVariable whole = describe(file, fileAxes, variable, roles, geographic, list);
+            for (Member& member : membersOf(file, fileAxes, variable, roles))
+                contents.variables.push_back(asMember(whole, std::move(member)));
         } catch (const AttributeError& error) {
             contents.damaged.push_back({variable.name, error.what()});
         }
     }
+    std::ranges::stable_partition(contents.variables,
+                                  [](const FileVariable& each) { return each.at.empty(); });
     if (!contents.variables.empty()) {
         contents.damaged.insert(contents.damaged.end(), leftOut.begin(), leftOut.end());
         return contents;

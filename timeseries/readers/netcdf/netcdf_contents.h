@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "timeseries/readers/cf/cf_axes.h"
@@ -15,11 +17,13 @@ namespace timeseries {
 
 struct FileVariable {
     std::string name, longName, units;
+    std::string stored;  // what the file calls it, and others of its members (cf_members.h), too
     std::vector<std::uint64_t> lengths;  // of its dimensions, slowest first
     ValueType type{};                    // in the file
     bool categories = false;             // as Field::categories
     std::vector<ClassName> classes;
     Roles roles;
+    std::vector<std::pair<std::size_t, std::uint64_t>> at;  // as Member has it
     Packing packing;
     VariableAxes axes;
     StoredTimes times;
@@ -27,7 +31,7 @@ struct FileVariable {
 };
 
 struct FileContents {
-    std::vector<FileVariable> variables;  // in the file's order; not empty
+    std::vector<FileVariable> variables;  // in the file's order, members last; not empty
     // For malformed attributes, of coordinates too, or for dimensions that are no axes.
     std::vector<DamagedVariable> damaged;
 };

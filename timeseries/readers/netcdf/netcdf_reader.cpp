@@ -117,7 +117,9 @@ void CfReader::leaveOutDamaged() {
     std::set<std::string> names;
     for (const DamagedVariable& each : damaged_) names.insert(each.name);
     for (auto& contents : contents_)
-        std::erase_if(contents, [&](const FileVariable& v) { return names.contains(v.name); });
+        std::erase_if(contents, [&](const FileVariable& v) {
+            return names.contains(v.name) || names.contains(v.stored);
+        });
     if (contents_[0].empty()) throw FileError(damaged_.front().why);
 }
 
@@ -192,7 +194,7 @@ std::shared_ptr<const Grid> CfReader::gridOf(std::size_t v, std::vector<std::str
         }
         if (first.axes.columns->by != ColumnPlaces::By::Neighbours)
             throw AttributeError(open(file).sentence(
-                "variable '" + first.name + "'",
+                "variable '" + first.stored + "'",
                 fmt::format("expected cells that take space, found that {}", flaw.what())));
         notes.push_back(fmt::format("drawn in index space: of its 2-D coordinates {} and {}, {}",
                                     first.axes.columns->x, first.axes.columns->y, flaw.what()));
@@ -205,9 +207,9 @@ std::shared_ptr<const Grid> CfReader::gridOf(std::size_t v, std::vector<std::str
 std::shared_ptr<const Mesh> CfReader::meshAt(std::size_t f, std::size_t v, std::size_t step) {
     const FileVariable& source = contents_[f][v];
     CfFile& file = open(f);
-    const NcVariable* const found = file.header().find(source.name, "");
+    const NcVariable* const found = file.header().find(source.stored, "");
     if (!found)
-        file.fail("variable '" + source.name + "'", "expected it, but the file has changed");
+        file.fail("variable '" + source.stored + "'", "expected it, but the file has changed");
     return meshes_.of(file, f, *found, source.roles, *source.axes.columns, source.axes.axes[2],
                       step);
 }
@@ -236,7 +238,7 @@ void CfReader::placeOnEarth(std::size_t v, Variable& variable, CfEarth& earth) {
     const FileVariable& first = contents_[0][v];
     if (!first.axes.earth) return;
     CfFile& file = open(0);
-    const NcVariable* const found = file.header().find(first.name, "");
+    const NcVariable* const found = file.header().find(first.stored, "");
     if (!found) return;
     const auto& [places, flaw] = earth.of(file, *found, first.roles, *first.axes.earth);
     if (!flaw.empty())
@@ -319,13 +321,13 @@ Field CfReader::valuesOf(std::size_t variable, std::size_t index, std::size_t st
                          const Slab* slab) {
     const FileVariable& source = contents_[index][variable];
     CfFile& file = open(index);
-    const NcVariable* found = file.header().find(source.name, "");
+    const NcVariable* found = file.header().find(source.stored, "");
     std::vector<std::uint64_t> lengths;
     if (found)
         for (std::size_t i = 0; i < found->dimensions.size(); ++i)
             lengths.push_back(file.header().dimension(*found, i).length);
     if (!found || found->type != source.type || lengths != source.lengths)
-        file.fail("variable '" + source.name + "'",
+        file.fail("variable '" + source.stored + "'",
                   "expected it as it was when the series was opened, but the file has changed");
 
     Field field;
@@ -347,7 +349,7 @@ bool CfReader::readsPlanes(std::size_t variable, std::size_t step) {
     const std::size_t index = fileOf(variable, step).first;
     const FileVariable& source = contents_[index][variable];
     const auto &x = source.roles.x, &y = source.roles.y, &z = source.roles.z;
-    const NcVariable* const found = open(index).header().find(source.name, "");
+    const NcVariable* const found = open(index).header().find(source.stored, "");
     // Chunks would be unpacked once for each slab that they reach into.
     return found && found->chunkBytes == 0 && z && (!y || *z < *y) && (!x || *z < *x);
 }
@@ -380,7 +382,7 @@ Field CfReader::read(std::size_t variable, std::size_t seriesStep) {
                     Grid(field.grid->axes(), mesh, true).withEarth(field.grid->earth()));
         } catch (const std::invalid_argument& flaw) {
             open(index).fail(
-                "variable '" + contents_[index][variable].name + "'",
+                "variable '" + contents_[index][variable].stored + "'",
                 fmt::format("expected cells that take space, found that {}", flaw.what()));
         }
     }
