@@ -94,6 +94,15 @@ TEST(NetcdfFill, MissingValuesMayBeSeveral) {
     EXPECT_THAT(reader->read(0, 0).missing, ElementsAre(false, true, true, false));
 }
 
+TEST(NetcdfFill, MissingValuesMayBeSpelt) {
+    const auto path = plane<float>("a.nc", {1, -9, 1e20f, -9.5f}, [](auto& file, int v) {
+        file.text(v, "missing_value", "-9. 1e20");
+    });
+    const auto reader = open(path);
+    EXPECT_THAT(reader->variables()[0].missing, HasSubstr("missing_value -9, missing_value 1e+20"));
+    EXPECT_THAT(reader->read(0, 0).missing, ElementsAre(false, true, true, false));
+}
+
 TEST(NetcdfFill, FillOfAnotherTypeIsTheNearestOfTheVariables) {
     // 1e20 as a double is not the float 1e20, but means it.
     const auto path = plane<float>("a.nc", {1, 1e20f, 1.0001e20f, 2}, [](auto& file, int v) {

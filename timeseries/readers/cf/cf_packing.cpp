@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "timeseries/grid/with_type.h"
+#include "timeseries/readers/text/number_text.h"
+#include "timeseries/readers/text/words.h"
 
 namespace timeseries {
 namespace {
@@ -50,6 +52,17 @@ const std::vector<Number>* numbersOf(const NcVariable& variable, const char* nam
     if (count != 0 && numbers->size() != count)
         malformed(fmt::format("{}: expected {} number{}, found {}", name, count,
                               count == 1 ? "" : "s", numbers->size()));
+    return numbers;
+}
+
+// Of an attribute that is text, the numbers that it spells; none where a word is no number.
+std::vector<double> spelt(const NcVariable& variable, const char* name) {
+    std::vector<double> numbers;
+    for (const std::string& word : words(variable.text(name))) {
+        const auto number = numberOfText<double>(word);
+        if (!number) return {};
+        numbers.push_back(*number);
+    }
     return numbers;
 }
 
@@ -141,7 +154,9 @@ void readMissing(const NcVariable& variable, const Malformed& malformed, Packing
     };
     const auto* fill = numbersOf(variable, "_FillValue", 1, malformed);
     if (fill) add("_FillValue", fill->front());
-    if (const auto* list = numbersOf(variable, "missing_value", 0, malformed))
+    if (const auto texts = spelt(variable, "missing_value"); !texts.empty())
+        for (const double number : texts) add("missing_value", numberOf(number));
+    else if (const auto* list = numbersOf(variable, "missing_value", 0, malformed))
         for (const Number& number : *list) add("missing_value", number);
     // The library fills by the type it stores, and knows nothing of _Unsigned.
     if (!fill && variable.filled)
