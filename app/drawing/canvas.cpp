@@ -110,7 +110,7 @@ struct Canvas::State {
     // Whether cells of a mesh come by their middles. GL's are put in order by the processor in one
     // go: so many in 30 ms on two cores.
     bool isByMiddles(const render::Scene& scene, bool moving) const {
-        constexpr std::uint64_t kMost = 1 << 17;
+        constexpr std::uint64_t kMost = 1 << 16;
         return moving || (renderer.splatters().sumsByGl(scene) &&
                           render::cellCount(scene, render::Channels::Over, 0) > kMost);
     }

@@ -139,8 +139,9 @@ class OrderOf {
     void add(const timeseries::FieldSlab& slab) {
         if (!mixesModels(scene_)) error_.add(slab);
     }
-    double error() const {
-        return mixesModels(scene_) ? std::numeric_limits<double>::quiet_NaN() : error_.error();
+    double error(const std::atomic<bool>& wanted) const {
+        return mixesModels(scene_) ? std::numeric_limits<double>::quiet_NaN()
+                                   : error_.error(&wanted);
     }
 
  private:
@@ -243,7 +244,7 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
         orders.try_emplace(rung.model, ways, rung.model, truth, question.threads);
     look(ways, drawn, truth, orders);
     std::map<Model, double> order;
-    for (const auto& [model, of] : orders) order[model] = wanted ? of.error() : 0;
+    for (const auto& [model, of] : orders) order[model] = wanted ? of.error(wanted) : 0;
     DepthErrors told{.rungs = {}, .ordering = orderingOf(ways, rungs.front().model)};
     for (std::size_t i = 0; i < rungs.size(); ++i) {
         const double depth = truth.apart(drawn[i], truth.depth());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -16,11 +15,14 @@ namespace {
 // others tetrahedron by tetrahedron, the nearest first.
 class DrawnOrder {
  public:
-    DrawnOrder(const Scene& scene, const View& view, unsigned threads)
+    DrawnOrder(const Scene& scene, const View& view, unsigned threads,
+               const std::atomic<bool>* wanted)
         : isMesh_(scene.placed.isMesh()), rank_(scene, view) {
+        constexpr std::uint64_t kAtOnce = 1 << 20;
         if (!isMesh_) return;
         CellList list(scene, Channels::Over, 0, &rank_, threads);
-        while (!list.done()) list.goOn(std::numeric_limits<std::uint32_t>::max());
+        for (; !list.done(); list.goOn(kAtOnce))
+            if (wanted != nullptr && !*wanted) return;
         for (std::uint32_t at = 0; at < list.cells().size(); ++at) {
             const std::uint32_t cell = list.cells()[at].cell;
             if (cell >= places_.size()) places_.resize(cell + std::size_t{1});
@@ -59,10 +61,11 @@ void OrderError::add(const timeseries::FieldSlab& slab) {
     if (!isNone()) addPartsOnRays(scene_, slab, view_, pixels_, threads_, parts_);
 }
 
-double OrderError::error() const {
+double OrderError::error(const std::atomic<bool>* wanted) const {
     if (isNone()) return 0;
     std::optional<DrawnOrder> order;
-    if (scene_.order != Order::None) order.emplace(scene_, view_, threads_);
+    if (scene_.order != Order::None) order.emplace(scene_, view_, threads_, wanted);
+    if (wanted != nullptr && !*wanted) return 0;
     LightOfParts light(scene_.layers);
     double errors = 0, all = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {

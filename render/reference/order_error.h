@@ -4,6 +4,7 @@
 // picture's own opacities and colours, evenly lit.
 #pragma once
 
+#include <atomic>
 #include <glm/vec2.hpp>
 #include <span>
 #include <vector>
@@ -29,8 +30,8 @@ class OrderError {
                std::span<const double> weights, unsigned threads = sharingThreads());
     // Each slab of the scene's field, in the grid's order, once.
     void add(const timeseries::FieldSlab& slab);
-    // Of what was added.
-    double error() const;
+    // Of what was added; anything once it is not wanted any more.
+    double error(const std::atomic<bool>* wanted = nullptr) const;
 
  private:
     bool isNone() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/splat/cell_pieces.h"
 
@@ -65,25 +66,30 @@ std::array<glm::dvec3, 8> PointSlopes::gradients(const glm::uvec3& cell, double 
 // Where every value is there: false where a difference is no number.
 bool PointSlopes::takeWhole(const glm::uvec3& cell, const glm::dvec3& perExtent,
                             CellSlopes& slopes) const {
-    if (!scene_.cells->field().missing.empty()) return false;
+    const timeseries::Field& field = scene_.cells->field();
+    const bool mayMiss = !field.missing.empty();
     const timeseries::CellCorners& corners = scene_.cells->cornersOf();
     const glm::uvec3 low = corners.pointAt(cell, 0), high = corners.pointAt(cell, 7);
     const std::array points = corners.pointsOf(cell);
     double none = 0;
     const auto take = [&](const auto& values) {
+        const auto valueOf = [&](std::uint32_t i) {
+            const auto value = static_cast<double>(values[i]);
+            return mayMiss && field.missing[i] ? std::numeric_limits<double>::quiet_NaN() : value;
+        };
         for (unsigned c = 0; c < 8; ++c)
             for (int a = 0; a < 3; ++a) {
                 const Neighbours& to =
                     along_[static_cast<std::size_t>(a)][(c >> a & 1 ? high : low)[a]];
-                const auto below = static_cast<double>(values[points[c] - to.below]);
-                const auto above = static_cast<double>(values[points[c] + to.above]);
+                const auto point = static_cast<std::uint32_t>(points[c]);
+                const double below = valueOf(point - to.below), above = valueOf(point + to.above);
                 const double slope = (0.5 * above - 0.5 * below) * (perExtent[a] * to.perBoth);
                 none += slope - slope;
                 slopes[static_cast<std::size_t>(a)][c] =
                     static_cast<float>(std::clamp(slope, -kMost, kMost));
             }
     };
-    std::visit(take, scene_.cells->field().values);
+    std::visit(take, field.values);
     return none == 0;
 }
 

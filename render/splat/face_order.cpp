@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
-#include <utility>
 
 #include "render/splat/solid_tets.h"
 #include "render/together.h"
@@ -13,8 +12,20 @@ namespace {
 
 constexpr std::size_t kPassedWorthAThread = 1 << 10;
 constexpr std::uint64_t kFacesOfACell = 6;
-constexpr std::uint64_t kFacesAtOnce = 1 << 22;  // 80 MB of them
+constexpr std::uint64_t kFacesAtOnce = 1 << 22;  // 80 MB of them, if they are so few
+constexpr std::uint64_t kMostRounds = 4;
 constexpr std::uint64_t kFacesOfABucket = 4;
+constexpr std::uint32_t kBlocks = 1 << 16;
+
+// What comes before each, and the last one's end.
+void addUp(std::vector<std::uint32_t>& counts) {
+    std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), 0u);
+}
+
+template <typename T>
+void release(std::vector<T>& values) {
+    std::vector<T>().swap(values);
+}
 
 }  // namespace
 
@@ -22,133 +33,188 @@ FaceOrder::FaceOrder(const Scene& scene, const glm::dvec3& eye, std::span<CellOf
                      unsigned threads)
     : scene_(scene), eye_(eye), list_(nearestFirst), threads_(threads) {
     const std::uint64_t faces = kFacesOfACell * list_.size();
-    rounds_ = static_cast<std::uint32_t>(faces / kFacesAtOnce + 1);
+    rounds_ = static_cast<std::uint32_t>(std::min(faces / kFacesAtOnce + 1, kMostRounds));
     buckets_ = static_cast<std::uint32_t>(faces / rounds_ / kFacesOfABucket + 1);
-    withTets(scene_, scene_.cells->field(),
-             [&](const auto& tets) { nodeOf_.assign(tets.count(), kNone); });
-    another_.assign(list_.size(), kNone);
-    first_.assign(list_.size(), kNone);
-    if (list_.size() >= kNone) enter(Phase::Done);
-}
-
-void FaceOrder::find(std::uint64_t cells) {
-    const std::uint64_t end = passed_ + std::min<std::uint64_t>(cells, list_.size() - passed_);
-    for (; passed_ < end; ++passed_)
-        another_[passed_] =
-            std::exchange(nodeOf_[list_[passed_].cell], static_cast<std::uint32_t>(passed_));
+    std::uint64_t cells = 0;
+    withTets(scene_, scene_.cells->field(), [&](const auto& tets) { cells = tets.count(); });
+    while (cells >> shift_ >= kBlocks) ++shift_;
+    constexpr std::uint64_t kMost = kNone / kFacesOfACell;  // places are numbers of 32 bits
+    if (list_.size() >= kMost) {
+        enter(Phase::Done);
+        return;
+    }
+    ends_.assign((cells >> shift_) + 1, 0);
+    listed_.resize(list_.size());
+    enter(Phase::Spread);
 }
 
 void FaceOrder::enter(Phase phase) {
     phase_ = phase;
     passed_ = 0;
-    if (phase == Phase::Count) ends_.assign(buckets_, 0);
-    if (phase == Phase::Place) {
-        const std::uint64_t count = std::accumulate(ends_.begin(), ends_.end(), std::uint64_t{0});
-        std::exclusive_scan(ends_.begin(), ends_.end(), ends_.begin(), 0u);
-        faces_ = timeseries::Pages<Face>(count, timeseries::Filled::Sparsely);
+    switch (phase) {
+        case Phase::Gather:
+            addUp(ends_);
+            break;
+        case Phase::Sort:
+            ofNode_.resize(list_.size());
+            break;
+        case Phase::Count:
+            ends_.assign(buckets_, 0);
+            first_.resize(list_.size(), kNone);
+            break;
+        case Phase::Place:
+            faces_ = timeseries::Pages<Face>(
+                std::accumulate(ends_.begin(), ends_.end(), std::uint64_t{0}),
+                timeseries::Filled::Sparsely);
+            addUp(ends_);
+            break;
+        case Phase::Walk:
+            faces_ = timeseries::Pages<Face>();
+            release(ends_);
+            before_.assign(list_.begin(), list_.end());
+            taken_.resize(list_.size());
+            break;
+        case Phase::Done:
+            for (auto* const kept : {&ofNode_, &first_, &open_}) release(*kept);
+            release(listed_);
+            release(inFront_);
+            release(before_);
+            release(taken_);
+            break;
+        default:
+            break;
     }
-    if (phase == Phase::Walk) {
-        nodeOf_ = {};
-        faces_ = timeseries::Pages<Face>();
-        before_.assign(list_.begin(), list_.end());
-        taken_.resize(list_.size());
-    }
+}
+
+std::uint64_t FaceOrder::shareOf(std::uint64_t cells, std::uint64_t all) const {
+    const double share = static_cast<double>(std::max<std::uint64_t>(cells, 1)) /
+                         static_cast<double>(std::max<std::size_t>(list_.size(), 1));
+    return static_cast<std::uint64_t>(std::min(share, 1.0) * static_cast<double>(all)) + 1;
 }
 
 void FaceOrder::goOn(std::uint64_t cells) {
     const std::uint64_t all = list_.size();
     switch (phase_) {
-        case Phase::Find:
-            find(cells);
-            if (passed_ == all) enter(Phase::Count);
+        case Phase::Spread:
+            spread(cells);
+            if (passed_ == all) enter(Phase::Gather);
+            break;
+        case Phase::Gather:
+            gather(cells);
+            if (passed_ == all) enter(Phase::Sort);
+            break;
+        case Phase::Sort:
+            sort(shareOf(cells, ends_.size()));
+            if (passed_ == ends_.size()) enter(Phase::Count);
             break;
         case Phase::Count:
             forEachFace(cells,
                         [&](std::uint32_t bucket, const FaceKey&, const auto&, std::uint32_t) {
                             std::atomic_ref(ends_[bucket]).fetch_add(1, std::memory_order_relaxed);
                         });
-            if (passed_ == nodeOf_.size()) enter(Phase::Place);
+            if (passed_ == all) enter(Phase::Place);
             break;
         case Phase::Place:
             forEachFace(cells, [&](std::uint32_t bucket, const FaceKey& key, const auto& sideOf,
-                                   std::uint32_t node) {
+                                   std::uint32_t at) {
                 const double side = sideOf(eye_);
                 faces_.data()[std::atomic_ref(ends_[bucket])
-                                  .fetch_add(1, std::memory_order_relaxed)] = {key, node,
+                                  .fetch_add(1, std::memory_order_relaxed)] = {key, at,
                                                                                side > 0   ? 1
                                                                                : side < 0 ? -1
                                                                                           : 0};
             });
-            if (passed_ == nodeOf_.size()) enter(Phase::Match);
+            if (passed_ == all) enter(Phase::Match);
             break;
         case Phase::Match:
-            match(cells * buckets_ / std::max<std::uint64_t>(all, 1) + 1);
+            match(shareOf(cells, buckets_));
             if (passed_ == buckets_) enter(++round_ < rounds_ ? Phase::Count : Phase::Walk);
             break;
         case Phase::Walk:
             walk(cells);
-            if (walked_ == all && passed_ == all) enter(Phase::Done);
+            if (walked_ == all) enter(Phase::Done);
             break;
         case Phase::Done:
             break;
     }
 }
 
-template <typename Use>
-void FaceOrder::forEachFace(std::uint64_t cells, const Use& use) {
-    const std::uint64_t some = std::min<std::uint64_t>(cells, nodeOf_.size() - passed_);
-    const std::uint64_t allBuckets = std::uint64_t{rounds_} * buckets_;
-    withTets(scene_, scene_.cells->field(), [&](const auto& tets) {
-        const std::uint64_t keys = tets.faceKeys();
-        const auto pass = [&](std::uint32_t cell, std::uint32_t node) {
-            tets.forEachFace(cell, [&](const FaceKey& key, const auto& sideOf) {
-                const std::uint64_t bucket = key[0] * allBuckets / keys - round_ * buckets_;
-                if (bucket >= buckets_) return;
-                for (std::uint32_t each = node; each != kNone; each = another_[each])
-                    use(static_cast<std::uint32_t>(bucket), key, sideOf, each);
-            });
-        };
-        inParts(some, threadsFor(some, kPassedWorthAThread, threads_),
-                [&](std::size_t first, std::size_t last) {
-                    for (std::size_t cell = passed_ + first; cell < passed_ + last; ++cell)
-                        if (nodeOf_[cell] != kNone)
-                            pass(static_cast<std::uint32_t>(cell), nodeOf_[cell]);
-                });
+void FaceOrder::spread(std::uint64_t cells) {
+    const std::uint64_t end = passed_ + std::min<std::uint64_t>(cells, list_.size() - passed_);
+    for (; passed_ < end; ++passed_) ++ends_[list_[passed_].cell >> shift_];
+}
+
+void FaceOrder::gather(std::uint64_t cells) {
+    const std::uint64_t end = passed_ + std::min<std::uint64_t>(cells, list_.size() - passed_);
+    for (; passed_ < end; ++passed_) {
+        const std::uint32_t cell = list_[passed_].cell;
+        listed_[ends_[cell >> shift_]++] = {cell, static_cast<std::uint32_t>(passed_)};
+    }
+}
+
+void FaceOrder::sort(std::uint64_t blocks) {
+    const std::uint64_t some = std::min<std::uint64_t>(blocks, ends_.size() - passed_);
+    inParts(some, threadsFor(some, 1, threads_), [&](std::size_t first, std::size_t last) {
+        for (std::size_t block = passed_ + first; block < passed_ + last; ++block) {
+            const std::uint32_t from = block == 0 ? 0 : ends_[block - 1];
+            std::sort(listed_.begin() + from, listed_.begin() + ends_[block]);
+            for (std::uint32_t at = from, its = from; at < ends_[block]; ++at) {
+                if (listed_[at].cell != listed_[its].cell) its = at;
+                ofNode_[listed_[at].node] = its;
+            }
+        }
     });
     passed_ += some;
 }
 
-// A cell is there once for each of its layers, which come as they did.
+// Beside those of keys like this one, spread over some, for a point may be of very many faces.
+std::uint64_t FaceOrder::bucketOf(const FaceKey& key, std::uint64_t keys) const {
+    constexpr std::uint32_t kSpread = 1 << 9;
+    const std::uint64_t all = std::uint64_t{rounds_} * buckets_;
+    const std::uint32_t mixed = (key[1] * 0x9e3779b9u ^ key[2]) * 0x85ebca6bu;
+    return (key[0] * all / keys + (mixed >> 16) % kSpread) % all;
+}
+
 template <typename Use>
-void FaceOrder::related(std::span<Face> bucket, const Use& use) const {
-    std::ranges::sort(bucket, [](const Face& a, const Face& b) {
-        return a.key != b.key ? a.key < b.key : a.node < b.node;
+void FaceOrder::forEachFace(std::uint64_t cells, const Use& use) {
+    const std::uint64_t some = std::min<std::uint64_t>(cells, list_.size() - passed_);
+    const std::uint64_t firstBucket = std::uint64_t{round_} * buckets_;
+    withTets(scene_, scene_.cells->field(), [&](const auto& tets) {
+        const std::uint64_t keys = tets.faceKeys();
+        inParts(some, threadsFor(some, kPassedWorthAThread, threads_),
+                [&](std::size_t first, std::size_t last) {
+                    for (std::size_t at = passed_ + first; at < passed_ + last; ++at) {
+                        if (!isFirst(at)) continue;
+                        tets.forEachFace(
+                            listed_[at].cell, [&](const FaceKey& key, const auto& sideOf) {
+                                const std::uint64_t bucket = bucketOf(key, keys) - firstBucket;
+                                if (bucket < buckets_)
+                                    use(static_cast<std::uint32_t>(bucket), key, sideOf,
+                                        static_cast<std::uint32_t>(at));
+                            });
+                    }
+                });
     });
-    for (auto at = bucket.begin(); at != bucket.end();) {
-        const auto end =
-            std::find_if(at, bucket.end(), [&](const Face& other) { return other.key != at->key; });
-        for (auto a = at; a != end; ++a)
-            for (auto b = a + 1; b != end; ++b) {
-                const bool isOne = list_[a->node].cell == list_[b->node].cell;
-                const std::int32_t side = isOne ? -1 : a->eye != 0 ? a->eye : -b->eye;
-                if (side != 0) side > 0 ? use(b->node, a->node) : use(a->node, b->node);
-            }
-        at = end;
-    }
+    passed_ += some;
 }
 
 void FaceOrder::match(std::uint64_t buckets) {
     const std::uint64_t some = std::min<std::uint64_t>(buckets, buckets_ - passed_);
     const unsigned shared = threadsFor(some, kPassedWorthAThread, threads_);
     std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(shared);
-    together(shared, [&](unsigned k) {
+    sharing(shared, [&](unsigned k) {
         for (std::uint64_t b = passed_ + some * k / shared; b < passed_ + some * (k + 1) / shared;
              ++b) {
             const std::uint32_t from = b == 0 ? 0 : ends_[b - 1];
-            related(std::span(faces_.data() + from, ends_[b] - from),
-                    [&](std::uint32_t before, std::uint32_t behind) {
-                        found[k].emplace_back(before, behind);
-                    });
+            const std::span bucket(faces_.data() + from, ends_[b] - from);
+            std::ranges::sort(bucket);
+            for (std::size_t i = 1; i < bucket.size(); ++i) {
+                const Face &one = bucket[i - 1], &other = bucket[i];
+                if (one.key != other.key || one.at == other.at) continue;
+                const std::int32_t side = one.eye != 0 ? one.eye : -other.eye;
+                if (side > 0) found[k].emplace_back(other.at, one.at);
+                if (side < 0) found[k].emplace_back(one.at, other.at);
+            }
         }
     });
     for (const auto& part : found)
@@ -163,22 +229,27 @@ void FaceOrder::walk(std::uint64_t cells) {
     const std::uint64_t until = walked_ + std::min<std::uint64_t>(cells, list_.size() - walked_);
     while (walked_ < until) {
         if (open_.empty()) {
-            while (taken_[passed_]) ++passed_;
-            taken_[passed_] = true;
-            open_.push_back(static_cast<std::uint32_t>(passed_++));
+            while (taken_[ofNode_[passed_]]) ++passed_;
+            open_.push_back(ofNode_[passed_]);
+            taken_[open_.back()] = true;
         }
-        const std::uint32_t node = open_.back();
-        std::uint32_t& next = first_[node];
-        while (next != kNone && taken_[inFront_[next].node]) next = inFront_[next].next;
+        const std::uint32_t at = open_.back();
+        std::uint32_t& next = first_[at];
+        while (next != kNone && taken_[inFront_[next].at]) next = inFront_[next].next;
         if (next == kNone) {
-            list_[walked_++] = before_[node];
             open_.pop_back();
+            pass(at);
             continue;
         }
-        taken_[inFront_[next].node] = true;
-        open_.push_back(inFront_[next].node);
+        open_.push_back(inFront_[next].at);
+        taken_[open_.back()] = true;
     }
-    if (walked_ == list_.size()) passed_ = walked_;
+}
+
+void FaceOrder::pass(std::uint32_t at) {
+    const std::uint32_t cell = listed_[at].cell;
+    for (; at < listed_.size() && listed_[at].cell == cell; ++at)
+        list_[walked_++] = before_[listed_[at].node];
 }
 
 }  // namespace render

@@ -24,62 +24,76 @@ struct CellOfLayer {
 // it into, and the eye is on the side that most of what it sees of them faces.
 //
 // Each cell of the list is passed after those in front of it that it shares a face with, and these
-// after theirs; cells that no faces join stay as they came, and so does one of a ring of cells of
-// which each hides the next. Done in slices; not a bit depends on these or on threads. The scene
-// and the list, which it puts in order, must outlive it.
+// after theirs; otherwise as they came, as is one of a ring of cells of which each hides the next.
+// Between cells that no others join, that is the order of what the list came by. Of a cell in
+// several layers all come together, as they did. Done in slices; not a bit depends on these or on
+// threads. The scene and the list, which it puts in order, must outlive it.
 class FaceOrder {
  public:
     // `eye` in axis coordinates. REQUIRES: scene.placed.isMesh().
     FaceOrder(const Scene& scene, const glm::dvec3& eye, std::span<CellOfLayer> nearestFirst,
               unsigned threads);
-    // Passes over so many cells, or a few more; all that are listed are passed over twice, and all
-    // of the mesh as often, or more often where very many are listed.
+    // Passes over so many of the list's cells, or a few more; all are passed over seven times, or
+    // thirteen times where they are very many. Throws std::bad_alloc.
     void goOn(std::uint64_t cells);
     bool done() const { return phase_ == Phase::Done; }
 
  private:
-    enum class Phase { Find, Count, Place, Match, Walk, Done };
+    // Gather and Sort: cells as they are numbered, for those beside each other lie beside each
+    // other in memory. Count and Place: their faces into buckets, where those of one key meet.
+    // Match: which cell is in front of which. Walk: the list anew.
+    enum class Phase { Spread, Gather, Sort, Count, Place, Match, Walk, Done };
+    struct Listed {
+        std::uint32_t cell, node;  // a place in the list
+        friend auto operator<=>(const Listed&, const Listed&) = default;
+    };
     struct Face {
         FaceKey key;
-        std::uint32_t node;  // a place in the list
-        std::int32_t eye;    // > 0 on the other side, < 0 on the cell's; 0 is not told
+        std::uint32_t at;  // where its cell is first in listed_
+        std::int32_t eye;  // > 0 on the other side, < 0 on the cell's; 0 is not told
+        friend auto operator<=>(const Face&, const Face&) = default;
     };
-    // One that is to be passed before another, and where in the list of all the next of these is.
+    // A cell that is to be passed before another, and where in the list of all the next of these
+    // is.
     struct InFront {
-        std::uint32_t node, next;
+        std::uint32_t at, next;
     };
     static constexpr std::uint32_t kNone = 0xffffffffu;
 
-    void find(std::uint64_t cells);
-    // use(its bucket of this round's, key, side, node) of all that so many of the mesh's cells
-    // have.
+    void spread(std::uint64_t cells);
+    void gather(std::uint64_t cells);
+    void sort(std::uint64_t blocks);
+    bool isFirst(std::size_t at) const {
+        return at == 0 || listed_[at - 1].cell != listed_[at].cell;
+    }
+    std::uint64_t bucketOf(const FaceKey& key, std::uint64_t keys) const;
+    // use(its bucket of this round's, key, side, at) of all that so many of listed_ have.
     template <typename Use>
     void forEachFace(std::uint64_t cells, const Use& use);
     void match(std::uint64_t buckets);
-    // use(the one before, the one behind)
-    template <typename Use>
-    void related(std::span<Face> bucket, const Use& use) const;
     void walk(std::uint64_t cells);
+    void pass(std::uint32_t at);
     void enter(Phase phase);
+    // How many blocks or buckets are so many of the list's share.
+    std::uint64_t shareOf(std::uint64_t cells, std::uint64_t all) const;
 
     const Scene& scene_;
     glm::dvec3 eye_;
     std::span<CellOfLayer> list_;
-    unsigned threads_;
-    Phase phase_ = Phase::Find;
+    unsigned threads_, shift_ = 0;  // of a cell's number, to its block's
+    Phase phase_ = Phase::Spread;
     std::uint64_t passed_ = 0;  // of what is passed over in this phase
-    // Of each of the mesh's cells a node, and of each node another one of its cell: cells are gone
-    // through as they are numbered, for those beside each other lie beside each other in memory.
-    std::vector<std::uint32_t> nodeOf_, another_;
-    // Faces are looked for in rounds, so that few of them are held at once: each has its part of
-    // all buckets, in which faces of one key meet.
+    std::vector<Listed> listed_;
+    std::vector<std::uint32_t> ofNode_;  // where the node's cell is first there
+    // Of each block, and then of each of this round's buckets, where it ends. In a round are the
+    // faces of some of all buckets, so that fewer of them are held at once.
+    std::vector<std::uint32_t> ends_;
     std::uint32_t round_ = 0, rounds_, buckets_;
-    std::vector<std::uint32_t> ends_;  // of this round's buckets
     timeseries::Pages<Face> faces_;
     std::vector<InFront> inFront_;
-    std::vector<std::uint32_t> first_;  // of each node, in inFront_
+    std::vector<std::uint32_t> first_;  // of each cell, in inFront_
     std::vector<CellOfLayer> before_;   // the list as it came
-    std::vector<std::uint32_t> open_;   // nodes that wait for what is in front of them
+    std::vector<std::uint32_t> open_;   // cells that wait for what is in front of them
     std::vector<bool> taken_;
     std::uint64_t walked_ = 0;
 };

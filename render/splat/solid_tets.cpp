@@ -29,10 +29,10 @@ glm::dvec3 SolidTets::middle(std::uint32_t cell) const {
     return first + sum / static_cast<double>(corners.size());
 }
 
-std::uint32_t SolidTets::inFrontOf(const Drawn& part, std::span<const Drawn> parts,
+std::uint64_t SolidTets::inFrontOf(const Drawn& part, std::span<const Drawn> parts,
                                    const glm::dvec3& eye) {
     const auto& own = part.tet.corners;
-    std::uint32_t before = 0;
+    std::uint64_t before = 0;
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const auto& other = parts[k].tet.corners;
         std::size_t shared = 0, lone = 0;
@@ -47,7 +47,7 @@ std::uint32_t SolidTets::inFrontOf(const Drawn& part, std::span<const Drawn> par
         const bool isLeft = turnOf(at) < 0;
         at[lone] = eye;
         const double turn = turnOf(at);
-        if (isLeft ? turn > 0 : turn < 0) before |= 1u << k;
+        if (isLeft ? turn > 0 : turn < 0) before |= std::uint64_t{1} << k;
     }
     return before;
 }

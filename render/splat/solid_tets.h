@@ -79,11 +79,11 @@ class SolidTets {
     };
     // pass(part) for each of a cell's before what it hides, as FaceOrder has cells
     // (render/splat/face_order.h). REQUIRES: the nearest first, and no more.
-    static constexpr std::size_t kMostByFaces = 32;
+    static constexpr std::size_t kMostByFaces = 64;
     template <typename Pass>
     static void inFrontFirst(std::span<const Drawn> parts, const glm::dvec3& eye, const Pass& pass);
     // A bit for each of the parts that share a face with this one and are before it.
-    static std::uint32_t inFrontOf(const Drawn& part, std::span<const Drawn> parts,
+    static std::uint64_t inFrontOf(const Drawn& part, std::span<const Drawn> parts,
                                    const glm::dvec3& eye);
     // use(tet) for what is seen of it; a bit of `seen` for each corner.
     template <typename Use>
@@ -164,14 +164,17 @@ void SolidTets::forEachFace(std::uint32_t cell, const Use& use) const {
     std::optional<glm::dvec3> middleOf;  // when it is asked for
     cells_.forEachFace(cell, [&](std::size_t size, const auto& pointAt) {
         constexpr std::uint32_t kNone = 0xffffffffu;
-        FaceKey key{kNone, kNone, kNone};  // the three least of its points
+        FaceKey key{kNone, kNone, kNone};  // the three least of its points, of collapsed ones too
         std::size_t least = 0;
         for (std::size_t i = 0; i < size; ++i) {
             std::uint32_t point = pointAt(i);
             if (point < pointAt(least)) least = i;
-            for (std::uint32_t& kept : key)
+            for (std::uint32_t& kept : key) {
+                if (point == kept) break;
                 if (point < kept) std::swap(point, kept);
+            }
         }
+        if (key[2] == kNone) return;
         if (comesRound_ && isDrawnElsewhere(cell, pointAt(least))) return;
         use(key, [&](const glm::dvec3& eye) {
             if (!middleOf) middleOf = middle(cell);
@@ -199,18 +202,18 @@ double SolidTets::sideOfFace(const glm::dvec3& middle, std::size_t size, std::si
 template <typename Pass>
 void SolidTets::inFrontFirst(std::span<const Drawn> parts, const glm::dvec3& eye,
                              const Pass& pass) {
-    std::array<std::uint32_t, kMostByFaces> before;
+    std::array<std::uint64_t, kMostByFaces> before;
     for (std::size_t k = 0; k < parts.size(); ++k) before[k] = inFrontOf(parts[k], parts, eye);
-    std::uint32_t left = 0xffffffffu >> (kMostByFaces - parts.size());
+    std::uint64_t left = ~std::uint64_t{0} >> (kMostByFaces - parts.size());
     while (left != 0) {
         auto k = static_cast<std::size_t>(std::countr_zero(left));  // of a ring the first
-        for (std::uint32_t some = left; some != 0; some &= some - 1) {
+        for (std::uint64_t some = left; some != 0; some &= some - 1) {
             const auto free = static_cast<std::size_t>(std::countr_zero(some));
             if ((before[free] & left) != 0) continue;
             k = free;
             break;
         }
-        left &= ~(1u << k);
+        left &= ~(std::uint64_t{1} << k);
         pass(parts[k]);
     }
 }

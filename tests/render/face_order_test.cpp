@@ -112,6 +112,39 @@ TEST(FaceOrder, IsThatOfEveryRayWhereCellsLeanAndGrow) {
     }
 }
 
+// Prisms that a file has as hexahedra, each with two of its edges in one, not always the same.
+TEST(FaceOrder, KnowsTheFacesOfCollapsedCells) {
+    const auto prisms = tests::bricks({6, 6, 5}, Cut::Wedges, flatFaced);
+    timeseries::UnstructuredGrid collapsed;
+    collapsed.points = prisms.points;
+    for (std::size_t cell = 0; cell < prisms.types.size(); ++cell) {
+        const auto at = [&](std::size_t k) { return prisms.corners[6 * cell + k]; };
+        const std::size_t a = cell % 3, b = (a + 1) % 3, c = (a + 2) % 3;
+        tests::addCell(collapsed, 12,
+                       {at(a), at(a), at(b), at(c), at(a + 3), at(a + 3), at(b + 3), at(c + 3)});
+    }
+    expectInOrder(wholeOf(tests::gridOf(tests::atPoints(collapsed))));
+}
+
+// Of cells that no file should have: on each other, or of one point. All are there, and soon.
+TEST(FaceOrder, TakesNoLongerWhereVeryManyCellsShareAFace) {
+    for (const bool isPoint : {false, true}) {
+        auto grid = tests::bricks({3, 3, 3}, Cut::Tetrahedra, tests::bent);
+        for (int n = 0; n < 100'000; ++n) {
+            if (isPoint)
+                tests::addCell(grid, 12, {0, 0, 0, 0, 0, 0, 0, 0});
+            else
+                tests::addCell(grid, 10, {0, 1, 3, 9});
+        }
+        const CellWorld world = wholeOf(tests::gridOf(tests::atPoints(grid)));
+        const auto list = listed(world.scene, tests::lookFrom({1.2, -2.5, 1}, {20, 16}));
+        std::vector<bool> seen(grid.types.size());
+        for (const CellOfLayer& of : list) seen[of.cell] = true;
+        EXPECT_EQ(std::ranges::count(seen, true), std::ssize(list));
+        EXPECT_GT(list.size(), 100'000u);
+    }
+}
+
 // Also over where its points come round, where the first cells are beside the last.
 TEST(FaceOrder, GoesRoundARing) {
     constexpr int kSectors = 9;
@@ -231,6 +264,35 @@ std::pair<double, double> through(const std::array<glm::dvec3, 4>& at, const glm
     return {first, last};
 }
 
+// A prism over many sides, as one polyhedron of points in any order.
+timeseries::UnstructuredGrid prismOver(std::uint32_t sides) {
+    timeseries::UnstructuredGrid grid;
+    const auto pointAt = [&](std::uint32_t k, std::uint32_t i) {
+        return (k * sides + i % sides) * 7 % (2 * sides);
+    };
+    grid.points.resize(2 * std::size_t{sides});
+    for (std::uint32_t k = 0; k < 2; ++k)
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            const double a = 2 * std::numbers::pi * i / sides;
+            grid.points[pointAt(k, i)] = {2 * std::cos(a), std::sin(a), 0.6 * k};
+        }
+    std::vector<std::vector<std::uint32_t>> faces(2);
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        for (std::uint32_t k = 0; k < 2; ++k) faces[k].push_back(pointAt(k, i));
+        faces.push_back({pointAt(0, i), pointAt(0, i + 1), pointAt(1, i + 1), pointAt(1, i)});
+        grid.corners.insert(grid.corners.end(), {pointAt(0, i), pointAt(1, i)});
+    }
+    grid.types.push_back(timeseries::kPolyhedron);
+    grid.ends.push_back(grid.corners.size());
+    grid.faces.push_back(static_cast<std::uint32_t>(faces.size()));
+    for (const auto& face : faces) {
+        grid.faces.push_back(static_cast<std::uint32_t>(face.size()));
+        grid.faces.insert(grid.faces.end(), face.begin(), face.end());
+    }
+    grid.faceEnds.push_back(grid.faces.size());
+    return grid;
+}
+
 TEST(FaceOrder, IsThatOfACellsTetrahedraToo) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> any(-1, 1);
@@ -240,15 +302,19 @@ TEST(FaceOrder, IsThatOfACellsTetrahedraToo) {
         return glm::dvec3(0.1 * i + j, j * j, 0.7 * k + i);
     };
     std::size_t steps = 0, wrong = 0;
-    for (const Cut cut : {Cut::Hexahedra, Cut::Wedges, Cut::Polyhedra}) {
-        const auto grid = tests::gridOf(tests::atPoints(tests::bricks({3, 3, 3}, cut, thin)));
-        const CellWorld world = wholeOf(grid);
+    std::vector<timeseries::UnstructuredGrid> grids;
+    for (const Cut cut : {Cut::Hexahedra, Cut::Wedges, Cut::Polyhedra})
+        grids.push_back(tests::bricks({3, 3, 3}, cut, thin));
+    grids.push_back(prismOver(18));  // 48 tetrahedra
+    for (const auto& grid : grids) {
+        const CellWorld world = wholeOf(tests::gridOf(tests::atPoints(grid)));
         const SolidTets solids(world.placed, world.scene.cells->field(), world.scene.clip);
         for (int n = 0; n < 2000; ++n) {
             const glm::dvec3 eye = 1.5 * glm::dvec3(any(random), any(random), any(random));
             std::vector<std::array<glm::dvec3, 4>> tets;
-            solids.forEachTet(static_cast<std::uint32_t>(n % 8), &eye, always,
-                              [&](const auto& tet) { tets.push_back(tet.at); });
+            solids.forEachTet(
+                static_cast<std::uint32_t>(n) % static_cast<std::uint32_t>(grid.types.size()), &eye,
+                always, [&](const auto& tet) { tets.push_back(tet.at); });
             glm::dvec3 within(0);
             double all = 0;
             for (const auto& tet : tets)
