@@ -139,7 +139,7 @@ std::uint64_t CellList::place(std::uint64_t cells) {
         });
     placed_ += some;
     if (placed_ == count_ && scene_.placed.isMesh() && !scene_.byMiddles)
-        byFaces_.emplace(scene_, rank_->from(), std::span(cells_.data(), count_), sharing_);
+        byFaces_.emplace(scene_, rank_->view(), std::span(cells_.data(), count_), sharing_);
     return some;
 }
 
@@ -150,7 +150,7 @@ std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::siz
 }
 
 CellRank::CellRank(const Scene& scene, const View& view)
-    : size_(scene.cells->size()), along_(size_) {
+    : size_(scene.cells->size()), along_(size_), view_(view) {
     if (scene.placed.isMesh())
         takeDistances(scene, view);
     else

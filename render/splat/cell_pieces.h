@@ -61,9 +61,9 @@ class CellRank {
     }
     // Of a mesh, that of a cell whose middle is there.
     std::uint32_t ofMiddle(const glm::dvec3& middle) const;
-    std::size_t count() const { return count_; }      // all less
-    const glm::dvec3& from() const { return from_; }  // of a mesh, the eye in axis coordinates
-    const glm::ivec3& eye() const { return eye_; }    // of an upright grid, the eye's cell
+    std::size_t count() const { return count_; }  // all less
+    const View& view() const { return view_; }
+    const glm::ivec3& eye() const { return eye_; }  // of an upright grid, the eye's cell
 
  private:
     void takeDistances(const Scene& scene, const View& view);
@@ -81,6 +81,7 @@ class CellRank {
     std::array<std::vector<Place>, 3> places_;
     std::vector<std::uint32_t> first_;  // of a brick, its least rank
     std::size_t count_ = 0;
+    View view_;
     const Scene* scene_ = nullptr;  // of a mesh
     glm::dvec3 from_{0};
     double nearest_ = 0, perDistance_ = 0;

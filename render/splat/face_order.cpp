@@ -16,6 +16,7 @@ constexpr std::uint64_t kFacesAtOnce = 1 << 22;  // 80 MB of them, if they are s
 constexpr std::uint64_t kMostRounds = 4;
 constexpr std::uint64_t kFacesOfABucket = 4;
 constexpr std::uint32_t kBlocks = 1 << 16;
+constexpr std::size_t kMostOuter = 1 << 20;
 
 // What comes before each, and the last one's end.
 void addUp(std::vector<std::uint32_t>& counts) {
@@ -29,9 +30,13 @@ void release(std::vector<T>& values) {
 
 }  // namespace
 
-FaceOrder::FaceOrder(const Scene& scene, const glm::dvec3& eye, std::span<CellOfLayer> nearestFirst,
+FaceOrder::FaceOrder(const Scene& scene, const View& view, std::span<CellOfLayer> nearestFirst,
                      unsigned threads)
-    : scene_(scene), eye_(eye), list_(nearestFirst), threads_(threads) {
+    : scene_(scene),
+      eye_(pixelRays(view).eye),
+      list_(nearestFirst),
+      threads_(threads),
+      gaps_(view) {
     const std::uint64_t faces = kFacesOfACell * list_.size();
     rounds_ = static_cast<std::uint32_t>(std::min(faces / kFacesAtOnce + 1, kMostRounds));
     buckets_ = static_cast<std::uint32_t>(faces / rounds_ / kFacesOfABucket + 1);
@@ -68,9 +73,17 @@ void FaceOrder::enter(Phase phase) {
                 timeseries::Filled::Sparsely);
             addUp(ends_);
             break;
-        case Phase::Walk:
+        case Phase::See:
             faces_ = timeseries::Pages<Face>();
             release(ends_);
+            // So many are small, and come in order by their middles.
+            if (outer_.size() > kMostOuter) outer_.clear();
+            break;
+        case Phase::Follow:
+            release(outer_);
+            gaps_.begin();
+            break;
+        case Phase::Walk:
             before_.assign(list_.begin(), list_.end());
             taken_.resize(list_.size());
             break;
@@ -128,7 +141,15 @@ void FaceOrder::goOn(std::uint64_t cells) {
             break;
         case Phase::Match:
             match(shareOf(cells, buckets_));
-            if (passed_ == buckets_) enter(++round_ < rounds_ ? Phase::Count : Phase::Walk);
+            if (passed_ == buckets_) enter(++round_ < rounds_ ? Phase::Count : Phase::See);
+            break;
+        case Phase::See:
+            see(shareOf(cells, outer_.size()));
+            if (passed_ == outer_.size()) enter(Phase::Follow);
+            break;
+        case Phase::Follow:
+            follow(cells);
+            if (gaps_.done()) enter(Phase::Walk);
             break;
         case Phase::Walk:
             walk(cells);
@@ -201,28 +222,63 @@ void FaceOrder::forEachFace(std::uint64_t cells, const Use& use) {
 void FaceOrder::match(std::uint64_t buckets) {
     const std::uint64_t some = std::min<std::uint64_t>(buckets, buckets_ - passed_);
     const unsigned shared = threadsFor(some, kPassedWorthAThread, threads_);
-    std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(shared);
+    struct Found {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+        std::vector<Outer> outer;
+    };
+    std::vector<Found> found(shared);
     sharing(shared, [&](unsigned k) {
         for (std::uint64_t b = passed_ + some * k / shared; b < passed_ + some * (k + 1) / shared;
              ++b) {
             const std::uint32_t from = b == 0 ? 0 : ends_[b - 1];
             const std::span bucket(faces_.data() + from, ends_[b] - from);
             std::ranges::sort(bucket);
-            for (std::size_t i = 1; i < bucket.size(); ++i) {
-                const Face &one = bucket[i - 1], &other = bucket[i];
-                if (one.key != other.key || one.at == other.at) continue;
+            for (std::size_t i = 0; i < bucket.size(); ++i) {
+                const Face& one = bucket[i];
+                const bool isLast = i + 1 == bucket.size() || bucket[i + 1].key != one.key;
+                if (isLast && (i == 0 || bucket[i - 1].key != one.key))
+                    found[k].outer.push_back({one.key, one.at});
+                if (isLast || bucket[i + 1].at == one.at) continue;
+                const Face& other = bucket[i + 1];
                 const std::int32_t side = one.eye != 0 ? one.eye : -other.eye;
-                if (side > 0) found[k].emplace_back(other.at, one.at);
-                if (side < 0) found[k].emplace_back(one.at, other.at);
+                if (side > 0) found[k].pairs.emplace_back(other.at, one.at);
+                if (side < 0) found[k].pairs.emplace_back(one.at, other.at);
             }
         }
     });
-    for (const auto& part : found)
-        for (const auto& [before, behind] : part) {
-            inFront_.push_back({before, first_[behind]});
-            first_[behind] = static_cast<std::uint32_t>(inFront_.size() - 1);
-        }
+    for (const Found& part : found) {
+        for (const auto& [before, behind] : part.pairs) putBefore(before, behind);
+        outer_.insert(outer_.end(), part.outer.begin(), part.outer.end());
+    }
     passed_ += some;
+}
+
+void FaceOrder::see(std::uint64_t cells) {
+    const std::uint64_t some = std::min<std::uint64_t>(cells, outer_.size() - passed_);
+    const unsigned shared = threadsFor(some, kPassedWorthAThread, threads_);
+    std::vector<std::vector<GapOrder::Outer>> triangles(shared);
+    withTets(scene_, scene_.cells->field(), [&](const auto& tets) {
+        sharing(shared, [&](unsigned k) {
+            for (std::uint64_t i = passed_ + some * k / shared;
+                 i < passed_ + some * (k + 1) / shared; ++i) {
+                const Outer& face = outer_[i];
+                tets.forEachTriangle(listed_[face.at].cell, face.key, eye_,
+                                     [&](const std::array<glm::dvec3, 3>& at, double side) {
+                                         if (side != 0)
+                                             triangles[k].push_back({at, face.at, side > 0});
+                                     });
+            }
+        });
+    });
+    for (const auto& own : triangles) gaps_.add(own);
+    passed_ += some;
+}
+
+void FaceOrder::follow(std::uint64_t cells) {
+    std::vector<GapOrder::Pair> pairs;
+    const double share = static_cast<double>(cells) / static_cast<double>(list_.size());
+    gaps_.goOn(std::min(share, 1.0), threads_, pairs);
+    for (const auto& [before, behind] : pairs) putBefore(before, behind);
 }
 
 void FaceOrder::walk(std::uint64_t cells) {

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "render/model/scene.h"
+#include "render/points/view.h"
+#include "render/splat/gap_order.h"
 #include "render/splat/mesh_cells.h"
 #include "timeseries/grid/pages.h"
 
@@ -24,25 +26,25 @@ struct CellOfLayer {
 // it into, and the eye is on the side that most of what it sees of them faces.
 //
 // Each cell of the list is passed after those in front of it that it shares a face with, and these
-// after theirs; otherwise as they came, as is one of a ring of cells of which each hides the next.
-// Between cells that no others join, that is the order of what the list came by. Of a cell in
+// after theirs, and so across gaps, as the picture's rays meet what is beside them (GapOrder);
+// otherwise as they came, as is one of a ring of cells of which each hides the next. Of a cell in
 // several layers all come together, as they did. Done in slices; not a bit depends on these or on
 // threads. The scene and the list, which it puts in order, must outlive it.
 class FaceOrder {
  public:
-    // `eye` in axis coordinates. REQUIRES: scene.placed.isMesh().
-    FaceOrder(const Scene& scene, const glm::dvec3& eye, std::span<CellOfLayer> nearestFirst,
+    // REQUIRES: scene.placed.isMesh().
+    FaceOrder(const Scene& scene, const View& view, std::span<CellOfLayer> nearestFirst,
               unsigned threads);
-    // Passes over so many of the list's cells, or a few more; all are passed over seven times, or
-    // thirteen times where they are very many. Throws std::bad_alloc.
+    // Passes over so many of the list's cells, or a few more; all are passed over nine times, or
+    // fifteen times where they are very many. Throws std::bad_alloc.
     void goOn(std::uint64_t cells);
     bool done() const { return phase_ == Phase::Done; }
 
  private:
     // Gather and Sort: cells as they are numbered, for those beside each other lie beside each
     // other in memory. Count and Place: their faces into buckets, where those of one key meet.
-    // Match: which cell is in front of which. Walk: the list anew.
-    enum class Phase { Spread, Gather, Sort, Count, Place, Match, Walk, Done };
+    // Match: which cell is in front of which. See, Follow: and across gaps. Walk: the list anew.
+    enum class Phase { Spread, Gather, Sort, Count, Place, Match, See, Follow, Walk, Done };
     struct Listed {
         std::uint32_t cell, node;  // a place in the list
         friend auto operator<=>(const Listed&, const Listed&) = default;
@@ -52,6 +54,11 @@ class FaceOrder {
         std::uint32_t at;  // where its cell is first in listed_
         std::int32_t eye;  // > 0 on the other side, < 0 on the cell's; 0 is not told
         friend auto operator<=>(const Face&, const Face&) = default;
+    };
+    // One that no other cell has.
+    struct Outer {
+        FaceKey key;
+        std::uint32_t at;
     };
     // A cell that is to be passed before another, and where in the list of all the next of these
     // is.
@@ -71,6 +78,12 @@ class FaceOrder {
     template <typename Use>
     void forEachFace(std::uint64_t cells, const Use& use);
     void match(std::uint64_t buckets);
+    void see(std::uint64_t cells);
+    void follow(std::uint64_t cells);
+    void putBefore(std::uint32_t before, std::uint32_t behind) {
+        inFront_.push_back({before, first_[behind]});
+        first_[behind] = static_cast<std::uint32_t>(inFront_.size() - 1);
+    }
     void walk(std::uint64_t cells);
     void pass(std::uint32_t at);
     void enter(Phase phase);
@@ -90,6 +103,8 @@ class FaceOrder {
     std::vector<std::uint32_t> ends_;
     std::uint32_t round_ = 0, rounds_, buckets_;
     timeseries::Pages<Face> faces_;
+    std::vector<Outer> outer_;
+    GapOrder gaps_;
     std::vector<InFront> inFront_;
     std::vector<std::uint32_t> first_;  // of each cell, in inFront_
     std::vector<CellOfLayer> before_;   // the list as it came

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <utility>
@@ -110,6 +111,10 @@ class MeshCells {
     template <typename Use>
     void forEachFace(std::uint32_t cell, const Use& use) const;
     std::uint64_t faceKeys() const { return count(); }  // a key's first number is less
+    // use(triangle, side of the eye, as above) for those of one of its faces.
+    template <typename Use>
+    void forEachTriangle(std::uint32_t cell, const FaceKey& key, const glm::dvec3& eye,
+                         const Use& use) const;
     // What goes as far along the coordinates of the file's space goes in axis coordinates.
     static glm::dvec3 reachOf(const PlacedPoints& placed, const glm::dvec3& length);
 
@@ -189,6 +194,25 @@ void MeshCells::forEachFace(std::uint32_t cell, const Use& use) const {
             if (!corners) corners = farCorners(here);
             return sideOfFace(*corners, axis, eye);
         });
+    }
+}
+
+template <typename Use>
+void MeshCells::forEachTriangle(std::uint32_t cell, const FaceKey& key, const glm::dvec3& eye,
+                                const Use& use) const {
+    const bool isNear = key[0] == cell;
+    const unsigned axis = key[1];
+    const unsigned u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
+    const unsigned end = isNear ? 0 : 1u << axis;
+    const glm::uvec3 here = at(cell);
+    const glm::dvec3 first = cornerAt(here, end);
+    const auto place = [&](unsigned corner) {
+        return first + way(first, cornerAt(here, end | corner));
+    };
+    const glm::dvec3 across = place(u | v);
+    for (const auto& [b, c] : {std::pair(place(u), across), std::pair(across, place(v))}) {
+        const double side = glm::dot(glm::cross(b - first, c - first), eye - first);
+        use(std::array{first, b, c}, isNear != isLeft_ ? -side : side);
     }
 }
 

@@ -64,6 +64,9 @@ class SolidTets {
     template <typename Use>
     void forEachFace(std::uint32_t cell, const Use& use) const;
     std::uint64_t faceKeys() const { return placed_.mesh()->count(); }
+    template <typename Use>
+    void forEachTriangle(std::uint32_t cell, const FaceKey& key, const glm::dvec3& eye,
+                         const Use& use) const;
     template <typename MayBeSeen, typename Use>
     void forEachTet(std::uint32_t cell, const glm::dvec3* eye, const MayBeSeen& mayBeSeen,
                     const Use& use) const;
@@ -72,6 +75,8 @@ class SolidTets {
     using Tetrahedron = MeshCells::Tetrahedron;
     // In whatever direction degrees and heights lead there.
     glm::dvec3 longestOn(const Globe& globe) const;
+    template <typename Use>
+    void forEachKey(std::uint32_t cell, const Use& use) const;
     struct Drawn {
         Tetrahedron tet;
         unsigned seen;
@@ -159,12 +164,13 @@ void SolidTets::forEachSeen(const Tetrahedron& tet, unsigned seen, const glm::dv
     }
 }
 
+// use(key, size, the place of its least point, pointAt) for those that are faces: a key is the
+// three least of its points, of which collapsed ones have some more than once.
 template <typename Use>
-void SolidTets::forEachFace(std::uint32_t cell, const Use& use) const {
-    std::optional<glm::dvec3> middleOf;  // when it is asked for
+void SolidTets::forEachKey(std::uint32_t cell, const Use& use) const {
     cells_.forEachFace(cell, [&](std::size_t size, const auto& pointAt) {
         constexpr std::uint32_t kNone = 0xffffffffu;
-        FaceKey key{kNone, kNone, kNone};  // the three least of its points, of collapsed ones too
+        FaceKey key{kNone, kNone, kNone};
         std::size_t least = 0;
         for (std::size_t i = 0; i < size; ++i) {
             std::uint32_t point = pointAt(i);
@@ -174,13 +180,36 @@ void SolidTets::forEachFace(std::uint32_t cell, const Use& use) const {
                 if (point < kept) std::swap(point, kept);
             }
         }
-        if (key[2] == kNone) return;
-        if (comesRound_ && isDrawnElsewhere(cell, pointAt(least))) return;
-        use(key, [&](const glm::dvec3& eye) {
-            if (!middleOf) middleOf = middle(cell);
-            return sideOfFace(*middleOf, size, least, pointAt, eye);
-        });
+        if (key[2] != kNone) use(key, size, least, pointAt);
     });
+}
+
+template <typename Use>
+void SolidTets::forEachTriangle(std::uint32_t cell, const FaceKey& key, const glm::dvec3& eye,
+                                const Use& use) const {
+    const glm::dvec3 inside = middle(cell);
+    forEachKey(
+        cell, [&](const FaceKey& of, std::size_t size, std::size_t least, const auto& pointAt) {
+            if (of != key) return;
+            const glm::dvec3 apex = placed_.alongAxes(pointAt(least));
+            const auto place = [&](std::size_t i) { return apex + way(apex, pointAt(i % size)); };
+            const double side = sideOfFace(inside, size, least, pointAt, eye);
+            for (std::size_t i = 1; i + 1 < size; ++i)
+                use(std::array{apex, place(least + i), place(least + i + 1)}, side);
+        });
+}
+
+template <typename Use>
+void SolidTets::forEachFace(std::uint32_t cell, const Use& use) const {
+    std::optional<glm::dvec3> middleOf;  // when it is asked for
+    forEachKey(cell,
+               [&](const FaceKey& key, std::size_t size, std::size_t least, const auto& pointAt) {
+                   if (comesRound_ && isDrawnElsewhere(cell, pointAt(least))) return;
+                   use(key, [&](const glm::dvec3& eye) {
+                       if (!middleOf) middleOf = middle(cell);
+                       return sideOfFace(*middleOf, size, least, pointAt, eye);
+                   });
+               });
 }
 
 // The fan from its least point, as it is parted.

@@ -200,8 +200,8 @@ FileContents contentsOf(const CfFile& file) {
             contents.damaged.push_back({variable.name, error.what()});
         }
     }
-    std::ranges::stable_partition(contents.variables,
-                                  [](const FileVariable& each) { return each.at.empty(); });
+    std::stable_partition(contents.variables.begin(), contents.variables.end(),
+                          [](const FileVariable& each) { return each.at.empty(); });
     if (!contents.variables.empty()) {
         contents.damaged.insert(contents.damaged.end(), leftOut.begin(), leftOut.end());
         return contents;
