@@ -43,8 +43,8 @@ FaceOrder::FaceOrder(const Scene& scene, const View& view, std::span<CellOfLayer
     std::uint64_t cells = 0;
     withTets(scene_, scene_.cells->field(), [&](const auto& tets) { cells = tets.count(); });
     while (cells >> shift_ >= kBlocks) ++shift_;
-    constexpr std::uint64_t kMost = kNone / kFacesOfACell;  // places are numbers of 32 bits
-    if (list_.size() >= kMost) {
+    constexpr std::uint64_t kMostListed = kNone / kFacesOfACell;  // places are numbers of 32 bits
+    if (list_.size() >= kMostListed) {
         enter(Phase::Done);
         return;
     }
