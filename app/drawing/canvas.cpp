@@ -107,12 +107,13 @@ struct Canvas::State {
         return scene.cells && scene.placed.isMesh() && splatters.sumsByGl(scene) &&
                !splatters.holdsCells(scene) && render::GlPieces::bytesOf(scene) > kMost;
     }
-    // Whether cells of a mesh come by their middles. Few are put in order in 5 ms; and GL's by the
-    // processor in one go.
+    // Whether cells of a mesh come by their middles. Few are put in order in 5 ms; GL's by the
+    // processor, in one go and for each eye, which its frames have no time for.
     bool isByMiddles(const render::Scene& scene, bool moving) const {
         constexpr std::uint64_t kFew = 1 << 14, kMostOfGl = 1 << 16;
         const std::uint64_t count = render::cellCount(scene, render::Channels::Over, 0);
-        return moving ? count > kFew : renderer.splatters().sumsByGl(scene) && count > kMostOfGl;
+        const bool byGl = renderer.splatters().sumsByGl(scene);
+        return moving ? byGl || count > kFew : byGl && count > kMostOfGl;
     }
     // While GL holds a mesh's tetrahedra as they were before there were gradients, and to list them
     // anew takes long: so.

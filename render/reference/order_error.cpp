@@ -23,11 +23,10 @@ class DrawnOrder {
         CellList list(scene, Channels::Over, 0, &rank_, threads);
         for (; !list.done(); list.goOn(kAtOnce))
             if (wanted != nullptr && !*wanted) return;
-        for (std::uint32_t at = 0; at < list.cells().size(); ++at) {
-            const std::uint32_t cell = list.cells()[at].cell;
-            if (cell >= places_.size()) places_.resize(cell + std::size_t{1});
-            places_[cell] = at;  // of its last layer, as that of its first among other cells
-        }
+        withTets(scene, scene.cells->field(),
+                 [&](const auto& tets) { places_.resize(tets.count()); });
+        for (std::uint32_t at = 0; at < list.cells().size(); ++at)
+            places_[list.cells()[at].cell] = at;  // its layers come one after another
     }
     void put(std::vector<PartInLayer>& parts) const {
         std::ranges::stable_sort(parts, {}, [&](const PartInLayer& p) {

@@ -143,8 +143,9 @@ std::uint64_t CellList::place(std::uint64_t cells) {
     return some;
 }
 
-std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer) {
-    CellList list(scene, channels, layer);
+std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer,
+                                 const CellRank* nearestFirst) {
+    CellList list(scene, channels, layer, nearestFirst);
     while (!list.done()) list.goOn(std::numeric_limits<std::uint32_t>::max());
     return {list.cells().begin(), list.cells().end()};
 }

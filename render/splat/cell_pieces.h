@@ -149,7 +149,8 @@ class CellList {
     std::optional<FaceOrder> byFaces_;  // of a mesh, when they have been placed
 };
 // All of them at once.
-std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer);
+std::vector<CellOfLayer> cellsOf(const Scene& scene, Channels channels, std::size_t layer,
+                                 const CellRank* nearestFirst = nullptr);
 
 // The two ends of a cell along an axis, in axis coordinates: points, or half a cell beyond them.
 std::pair<double, double> endsAlong(const PlacedPoints& placed, std::size_t axis,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
+#include <utility>
 
 #include "render/splat/solid_tets.h"
 #include "render/together.h"
@@ -17,8 +18,9 @@ constexpr std::uint64_t kMostRounds = 4;
 constexpr std::uint64_t kFacesOfABucket = 4;
 constexpr std::uint32_t kBlocks = 1 << 16;
 constexpr std::size_t kMostOuter = 1 << 20;
+constexpr std::uint64_t kSeenAtOnce = 1 << 13;
 
-// What comes before each, and the last one's end.
+// What comes before each: where it begins, and when it is filled, ends.
 void addUp(std::vector<std::uint32_t>& counts) {
     std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), 0u);
 }
@@ -36,7 +38,7 @@ FaceOrder::FaceOrder(const Scene& scene, const View& view, std::span<CellOfLayer
       eye_(pixelRays(view).eye),
       list_(nearestFirst),
       threads_(threads),
-      gaps_(view) {
+      gaps_(std::in_place, view) {
     const std::uint64_t faces = kFacesOfACell * list_.size();
     rounds_ = static_cast<std::uint32_t>(std::min(faces / kFacesAtOnce + 1, kMostRounds));
     buckets_ = static_cast<std::uint32_t>(faces / rounds_ / kFacesOfABucket + 1);
@@ -81,9 +83,10 @@ void FaceOrder::enter(Phase phase) {
             break;
         case Phase::Follow:
             release(outer_);
-            gaps_.begin();
+            gaps_->begin();
             break;
         case Phase::Walk:
+            gaps_.reset();
             before_.assign(list_.begin(), list_.end());
             taken_.resize(list_.size());
             break;
@@ -144,12 +147,15 @@ void FaceOrder::goOn(std::uint64_t cells) {
             if (passed_ == buckets_) enter(++round_ < rounds_ ? Phase::Count : Phase::See);
             break;
         case Phase::See:
-            see(shareOf(cells, outer_.size()));
+            // Few at once, whose triangles are not in the way of each other in memory.
+            for (std::uint64_t left = shareOf(cells, outer_.size());
+                 left > 0 && passed_ < outer_.size(); left -= std::min(left, kSeenAtOnce))
+                see(std::min(left, kSeenAtOnce));
             if (passed_ == outer_.size()) enter(Phase::Follow);
             break;
         case Phase::Follow:
             follow(cells);
-            if (gaps_.done()) enter(Phase::Walk);
+            if (gaps_->done()) enter(Phase::Walk);
             break;
         case Phase::Walk:
             walk(cells);
@@ -270,14 +276,14 @@ void FaceOrder::see(std::uint64_t cells) {
             }
         });
     });
-    for (const auto& own : triangles) gaps_.add(own);
+    for (const auto& own : triangles) gaps_->add(own, threads_);
     passed_ += some;
 }
 
 void FaceOrder::follow(std::uint64_t cells) {
     std::vector<GapOrder::Pair> pairs;
     const double share = static_cast<double>(cells) / static_cast<double>(list_.size());
-    gaps_.goOn(std::min(share, 1.0), threads_, pairs);
+    gaps_->goOn(std::min(share, 1.0), threads_, pairs);
     for (const auto& [before, behind] : pairs) putBefore(before, behind);
 }
 

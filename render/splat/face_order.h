@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -36,7 +37,7 @@ class FaceOrder {
     FaceOrder(const Scene& scene, const View& view, std::span<CellOfLayer> nearestFirst,
               unsigned threads);
     // Passes over so many of the list's cells, or a few more; all are passed over nine times, or
-    // fifteen times where they are very many. Throws std::bad_alloc.
+    // eighteen where they are very many. Throws std::bad_alloc.
     void goOn(std::uint64_t cells);
     bool done() const { return phase_ == Phase::Done; }
 
@@ -104,7 +105,7 @@ class FaceOrder {
     std::uint32_t round_ = 0, rounds_, buckets_;
     timeseries::Pages<Face> faces_;
     std::vector<Outer> outer_;
-    GapOrder gaps_;
+    std::optional<GapOrder> gaps_;  // until they are followed
     std::vector<InFront> inFront_;
     std::vector<std::uint32_t> first_;  // of each cell, in inFront_
     std::vector<CellOfLayer> before_;   // the list as it came

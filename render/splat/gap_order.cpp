@@ -15,6 +15,7 @@ namespace {
 constexpr double kMostMet = 1 << 17;
 constexpr int kRowsOfAStrip = 8;
 constexpr double kInFront = 1 + 1e-6;  // of the near plane's depth
+constexpr std::size_t kSeenWorthAThread = 1 << 11;
 // Of a depth: where a cell is left and another one entered in one place, it is left before.
 constexpr float kSamePlace = 1e-5f;
 
@@ -27,48 +28,58 @@ float across(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
 
 }  // namespace
 
-void GapOrder::add(std::span<const Outer> outer) {
-    const PixelRays rays = pixelRays(view_);
-    const double near = rays.near * kInFront;
-    const auto depthOf = [&](const glm::dvec3& at) { return project(view_, at).depth; };
-    for (const Outer& each : outer) {
-        // What of it is in front of the eye: a fan.
-        std::array<glm::dvec3, 4> fan;
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const glm::dvec3 &at = each.at[i], &next = each.at[(i + 1) % 3];
-            const double depth = depthOf(at), nextDepth = depthOf(next);
-            if (depth > near) fan[count++] = at;
-            if ((depth > near) != (nextDepth > near))
-                fan[count++] = glm::mix(at, next, (near - depth) / (nextDepth - depth));
-        }
-        for (std::size_t i = 2; i < count; ++i)
-            see({{fan[0], fan[i - 1], fan[i]}, each.cell, each.isEntered});
+GapOrder::GapOrder(const View& view) : view_(view), rays_(pixelRays(view)) {}
+
+void GapOrder::add(std::span<const Outer> outer, unsigned threads) {
+    const unsigned shared = threadsFor(outer.size(), kSeenWorthAThread, threads);
+    std::vector<std::vector<Seen>> seen(shared);
+    sharing(shared, [&](unsigned k) {
+        const std::size_t first = outer.size() * k / shared, end = outer.size() * (k + 1) / shared;
+        for (const Outer& each : outer.subspan(first, end - first)) see(each, seen[k]);
+    });
+    const double picture = static_cast<double>(view_.size.x) * view_.size.y;
+    for (const std::vector<Seen>& part : seen) {
+        for (const Seen& each : part)
+            area_ += std::min(0.5 * std::abs(across(each.at[0], each.at[1], each.at[2])), picture);
+        seen_.insert(seen_.end(), part.begin(), part.end());
     }
 }
 
-void GapOrder::see(const Outer& outer) {
-    Seen seen{.at = {}, .cell = outer.cell, .isEntered = outer.isEntered};
+// What of it is in front of the eye: a fan.
+void GapOrder::see(const Outer& outer, std::vector<Seen>& into) const {
+    const double near = rays_.near * kInFront;
+    const auto placeOf = [&](const glm::dvec3& inView) {
+        const double perDepth = -1 / inView.z;
+        return glm::vec3(
+            glm::dvec3(rays_.centre + perDepth * rays_.focal * glm::dvec2(inView), perDepth));
+    };
+    std::array<glm::dvec3, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i)
+        corners[i] = glm::dvec3(view_.viewFromWorld * glm::dvec4(outer.at[i], 1));
+    std::array<glm::vec3, 4> fan;
+    std::size_t count = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Projected at = project(view_, outer.at[i]);
-        seen.at[i] = glm::vec3(glm::dvec3(at.window, 1 / at.depth));
+        const glm::dvec3 &at = corners[i], &next = corners[(i + 1) % 3];
+        if (-at.z > near) fan[count++] = placeOf(at);
+        if ((-at.z > near) != (-next.z > near))
+            fan[count++] = placeOf(glm::mix(at, next, (near + at.z) / (at.z - next.z)));
     }
-    const float twice = std::abs(across(seen.at[0], seen.at[1], seen.at[2]));
-    if (!std::isfinite(twice) || twice == 0) return;
-    const auto [low, high] = std::ranges::minmax(seen.at, {}, &glm::vec3::y);
-    const auto [left, right] = std::ranges::minmax(seen.at, {}, &glm::vec3::x);
-    if (high.y < 0 || right.x < 0 || low.y > static_cast<float>(view_.size.y) ||
-        left.x > static_cast<float>(view_.size.x))
-        return;
-    area_ += std::min(0.5 * static_cast<double>(twice),
-                      static_cast<double>(view_.size.x) * view_.size.y);
-    seen_.push_back(seen);
+    for (std::size_t i = 2; i < count; ++i) {
+        const Seen seen{{fan[0], fan[i - 1], fan[i]}, outer.cell, outer.isEntered};
+        const float twice = across(seen.at[0], seen.at[1], seen.at[2]);
+        if (!std::isfinite(twice) || twice == 0) continue;
+        const auto [low, high] = std::ranges::minmax(seen.at, {}, &glm::vec3::y);
+        const auto [left, right] = std::ranges::minmax(seen.at, {}, &glm::vec3::x);
+        if (high.y >= 0 && right.x >= 0 && low.y <= static_cast<float>(view_.size.y) &&
+            left.x <= static_cast<float>(view_.size.x))
+            into.push_back(seen);
+    }
 }
 
 void GapOrder::begin() {
     while (area_ / apart_ / apart_ > kMostMet) ++apart_;
-    rays_ = (view_.size + apart_ - 1) / apart_;
-    strips_ = (rays_.y + kRowsOfAStrip - 1) / kRowsOfAStrip;
+    count_ = (view_.size + apart_ - 1) / apart_;
+    strips_ = (count_.y + kRowsOfAStrip - 1) / kRowsOfAStrip;
     ends_.assign(static_cast<std::size_t>(strips_) + 1, 0);
     for (const Seen& seen : seen_)
         for (auto [strip, end] = stripsOf(seen); strip < end; ++strip)
@@ -99,9 +110,9 @@ void GapOrder::meet(const Seen& seen, int firstRow, int endRow, std::vector<Met>
         return static_cast<int>(
             std::clamp(std::ceil(place / step - 0.5f), 0.0f, static_cast<float>(most)));
     };
-    const int firstX = rayBefore(left.x, rays_.x), endX = rayBefore(right.x, rays_.x);
-    firstRow = std::max(firstRow, rayBefore(low.y, rays_.y));
-    endRow = std::min(endRow, rayBefore(high.y, rays_.y));
+    const int firstX = rayBefore(left.x, count_.x), endX = rayBefore(right.x, count_.x);
+    firstRow = std::max(firstRow, rayBefore(low.y, count_.y));
+    endRow = std::min(endRow, rayBefore(high.y, count_.y));
     for (int y = firstRow; y < endRow; ++y)
         for (int x = firstX; x < endX; ++x) {
             const glm::vec3 at((static_cast<float>(x) + 0.5f) * step,
@@ -111,7 +122,7 @@ void GapOrder::meet(const Seen& seen, int firstRow, int endRow, std::vector<Met>
             if (std::min({ofA, ofB, ofC}) < -kBeside) continue;
             float nearness = ofA * a.z + ofB * b.z + ofC * c.z;
             if (!seen.isEntered) nearness *= 1 + kSamePlace;
-            const auto ray = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(rays_.x) +
+            const auto ray = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(count_.x) +
                              static_cast<std::uint64_t>(x);
             met.push_back({ray << 32 | ~std::bit_cast<std::uint32_t>(std::max(nearness, 0.0f)),
                            seen.cell, seen.isEntered});

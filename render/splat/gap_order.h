@@ -28,9 +28,9 @@ class GapOrder {
     };
     using Pair = std::pair<std::uint32_t, std::uint32_t>;  // the one before, the one behind
 
-    explicit GapOrder(const View& view) : view_(view) {}
+    explicit GapOrder(const View& view);
     // In this order; what of them is behind the eye's near plane is left out.
-    void add(std::span<const Outer> outer);
+    void add(std::span<const Outer> outer, unsigned threads);
     // When all are added. Rays are as many as pixels, or fewer, where they would meet too many.
     void begin();
     // Follows this share of the rays. Each ray that leaves a cell, and enters another one next,
@@ -50,16 +50,17 @@ class GapOrder {
         bool isEntered;
         friend auto operator<=>(const Met&, const Met&) = default;
     };
-    void see(const Outer& outer);
+    void see(const Outer& outer, std::vector<Seen>& into) const;
     std::pair<int, int> stripsOf(const Seen& seen) const;
     void meet(const Seen& seen, int firstRow, int endRow, std::vector<Met>& met) const;
     void follow(int strip, std::vector<Pair>& pairs) const;
 
     View view_;
+    PixelRays rays_;
     std::vector<Seen> seen_;
-    double area_ = 0;  // of all, in pixels
-    int apart_ = 1;    // pixels from ray to ray
-    glm::ivec2 rays_{0};
+    double area_ = 0;      // of all, in pixels
+    int apart_ = 1;        // pixels from ray to ray
+    glm::ivec2 count_{0};  // of rays across and up
     int strips_ = 0, strip_ = 0;
     std::vector<std::uint32_t> ends_, inStrips_;  // of each strip, its places in seen_
 };

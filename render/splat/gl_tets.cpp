@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -50,9 +49,7 @@ bool takeTet(GlTet& t, GlTetSlopes& slopes, const ValuedTet& tet, const CellOfLa
 std::vector<std::uint32_t> placesInOrder(const Scene& scene, const View& view,
                                          std::span<const CellOfLayer> cells) {
     const CellRank rank(scene, view);
-    CellList list(scene, Channels::Over, 0, &rank);
-    while (!list.done()) list.goOn(std::numeric_limits<std::uint32_t>::max());
-    const std::span<const CellOfLayer> inOrder = list.cells();
+    const std::vector<CellOfLayer> inOrder = cellsOf(scene, Channels::Over, 0, &rank);
     std::vector<std::uint32_t> places(cells.size()), ofCell;
     for (std::size_t layer = 0; layer < scene.layers.size(); ++layer) {
         for (std::uint32_t at = 0; at < inOrder.size(); ++at) {

@@ -209,10 +209,8 @@ TEST_F(GlTetsOf, AreInTheProcessorsOrderOfCells) {
             if (drawn.empty() || drawn.back() != of) drawn.push_back(of);
         }
         const CellRank rank(world.scene, view);
-        CellList list(world.scene, Channels::Over, 0, &rank);
-        while (!list.done()) list.goOn(1 << 10);
         const std::set has(drawn.begin(), drawn.end());
-        for (const CellOfLayer& of : list.cells())
+        for (const CellOfLayer& of : cellsOf(world.scene, Channels::Over, 0, &rank))
             if (has.contains({of.cell, of.layer})) expected.emplace_back(of.cell, of.layer);
         std::ranges::reverse(expected);
         ASSERT_GT(drawn.size(), 50u);

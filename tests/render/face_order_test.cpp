@@ -50,6 +50,12 @@ constexpr double kTouched = 1e-4;  // of a ray along an edge; more than GapOrder
 
 struct Passed {
     std::size_t inOrder = 0, wrong = 0;
+
+    Passed& operator+=(const Passed& more) {
+        inOrder += more.inOrder;
+        wrong += more.wrong;
+        return *this;
+    }
 };
 // Of neighbours along the rays through a picture's pixels.
 Passed passed(const CellWorld& world, const View& view) {
@@ -93,10 +99,7 @@ void expectInOrder(CellWorld world) {
     for (const View& view : views()) {
         for (const bool isByMiddles : {false, true}) {
             world.scene.byMiddles = isByMiddles;
-            const Passed some = passed(world, view);
-            Passed& sum = isByMiddles ? byMiddles : byFaces;
-            sum.inOrder += some.inOrder;
-            sum.wrong += some.wrong;
+            (isByMiddles ? byMiddles : byFaces) += passed(world, view);
         }
     }
     EXPECT_GT(byFaces.inOrder, 1'000u);
@@ -169,10 +172,7 @@ TEST(FaceOrder, IsOfPartsThatNoFacesJoinAsRaysMeetThem) {
                     std::ranges::equal(list, other, {}, &CellOfLayer::cell, &CellOfLayer::cell));
             for (const bool isByMiddles : {false, true}) {
                 world.scene.byMiddles = isByMiddles;
-                const Passed some = passed(world, view);
-                Passed& sum = isByMiddles ? byMiddles : byRays;
-                sum.inOrder += some.inOrder;
-                sum.wrong += some.wrong;
+                (isByMiddles ? byMiddles : byRays) += passed(world, view);
             }
             world.scene.byMiddles = false;
         }
@@ -217,12 +217,8 @@ TEST(FaceOrder, GoesRoundARing) {
     const glm::dvec3 seam = world.placed.position(1 + 4 * 4);
     Passed sum;
     for (const double up : {-1.5, -0.2, 0.4, 1.1, 2.5})
-        for (const double aside : {-0.8, -0.1, 0.2, 0.9}) {
-            const Passed some =
-                passed(world, tests::lookFrom(2.0 * seam + glm::dvec3(0, aside, up), {24, 18}));
-            sum.inOrder += some.inOrder;
-            sum.wrong += some.wrong;
-        }
+        for (const double aside : {-0.8, -0.1, 0.2, 0.9})
+            sum += passed(world, tests::lookFrom(2.0 * seam + glm::dvec3(0, aside, up), {24, 18}));
     EXPECT_GT(sum.inOrder, 1'000u);
     EXPECT_EQ(sum.wrong, 0u);
 
@@ -253,11 +249,8 @@ TEST(FaceOrder, IsOfCellsWhereTheyAreDrawn) {
         const CellWorld world = wholeOf(grid);
         Passed sum;
         for (const glm::dvec3& from : {glm::dvec3(3, 0.1, 0.2), glm::dvec3(-3, 0.2, -0.1),
-                                       glm::dvec3(0.9, 0.2, 0.3), glm::dvec3(0.1, -0.2, 2)}) {
-            const Passed some = passed(world, tests::lookFrom(from, {24, 18}));
-            sum.inOrder += some.inOrder;
-            sum.wrong += some.wrong;
-        }
+                                       glm::dvec3(0.9, 0.2, 0.3), glm::dvec3(0.1, -0.2, 2)})
+            sum += passed(world, tests::lookFrom(from, {24, 18}));
         EXPECT_GT(sum.inOrder, 500u);
         EXPECT_EQ(sum.wrong, 0u);
     }
