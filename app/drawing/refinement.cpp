@@ -14,6 +14,8 @@ using namespace std::chrono_literals;
 constexpr double kOrdering = 0.2, kMaking = 0.5;
 // Between two frames of the window, each of which takes about as long.
 constexpr auto kSlice = 16ms;
+// Of cells, which do not cost alike, though they be cheaper in the mean.
+constexpr auto kLongestSlice = 2 * kSlice;
 
 }  // namespace
 
@@ -71,15 +73,18 @@ void Refinement::makeCells() {
 double Refinement::goOn(double cost,
                         const std::function<void(std::size_t eye, render::Targets&)>& show) {
     const double before = drawn_;
+    using Clock = render::FrameRenderer::Clock;
+    const Clock::time_point end =
+        picture_.scene.cells ? Clock::now() + kLongestSlice : Clock::time_point::max();
     do {
         const double of = work_ ? work_->cost : 0;
         if (!work_) work_.emplace(renderer_.begin(*frame_, eyes_[eye_]));
-        const bool whole = renderer_.goOn(*work_, cost - (drawn_ - before));
+        const bool whole = renderer_.goOn(*work_, cost - (drawn_ - before), end);
         drawn_ += work_->cost - of;
         if (!whole) break;
         show(eye_++, renderer_.targets());
         work_.reset();
-    } while (!done() && drawn_ - before < cost);
+    } while (!done() && drawn_ - before < cost && Clock::now() < end);
     return drawn_ - before;
 }
 

@@ -15,6 +15,15 @@ namespace {
 constexpr double kAll = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kAllSplats = std::numeric_limits<std::uint64_t>::max();
 
+constexpr double kMostAtOnce = 1e18;
+// Of what one call draws, the first is so small a part: nothing is known of what it takes.
+constexpr double kFirstSlices = 32;
+
+// For a look at the clock every 12 ms: tiles are taken up and put down between two.
+double nextSlice(double drawn, std::chrono::duration<double, std::milli> took) {
+    return drawn * std::clamp(12 / std::max(took.count(), 1e-3), 1.0 / 64, 2.0);
+}
+
 std::array<FontStyle, 2> stylesFor(glm::ivec2 size) { return {labelStyle(size), titleStyle(size)}; }
 
 }  // namespace
@@ -124,8 +133,8 @@ FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View&
     return work;
 }
 
-bool FrameRenderer::goOn(EyeInWork& work, double cost) {
-    if (!drawSplats(work, cost)) return false;
+bool FrameRenderer::goOn(EyeInWork& work, double cost, Clock::time_point end) {
+    if (!drawSplats(work, cost, end)) return false;
     const Prepared& frame = work.frame;
     const FrameContent& content = frame.content;
     if (content.across > 1) {
@@ -208,7 +217,7 @@ void FrameRenderer::drawPlacards(std::span<const Placard> placards, const glm::d
     }
 }
 
-bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
+bool FrameRenderer::drawSplats(EyeInWork& work, double cost, Clock::time_point end) {
     const FrameContent& content = work.frame.content;
     const std::vector<Channels> channels = channelsFor(content.scene);
     LightPass& light = work.frame.light;
@@ -219,17 +228,23 @@ bool FrameRenderer::drawSplats(EyeInWork& work, double cost) {
                             : work.axes.behind,
                         content.placards, work.planes, targets);
     const double until = work.cost + std::max(cost, 1.0);
+    const bool looksAtClock = end != Clock::time_point::max();
+    if (work.slice == 0) work.slice = looksAtClock ? cost / kFirstSlices : kAll;
     for (; work.plane < channels.size(); ++work.plane, work.sum.reset()) {
         if (work.cost >= until) return false;
         if (!work.sum)
             work.sum =
                 work.frame.splats->begin(work.planes, channels[work.plane], work.plane, targets);
         const double each = work.splatCosts[work.plane];
-        constexpr double kMost = 1e18;
         while (!work.sum->done() && work.cost < until) {
-            const double splats = std::min(std::ceil((until - work.cost) / each), kMost);
-            work.cost +=
+            const Clock::time_point begin = looksAtClock ? Clock::now() : Clock::time_point{};
+            if (looksAtClock && begin >= end) return false;
+            const double some = std::min(until - work.cost, work.slice);
+            const double splats = std::min(std::ceil(some / each), kMostAtOnce);
+            const double added =
                 each * static_cast<double>(work.sum->add(static_cast<std::uint64_t>(splats)));
+            work.cost += added;
+            if (looksAtClock) work.slice = nextSlice(added, Clock::now() - begin);
         }
         if (!work.sum->done()) return false;
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -92,12 +93,15 @@ class FrameRenderer {
         std::vector<double> splatCosts;
         std::size_t plane = 0;  // to go on with
         std::unique_ptr<PlaneSum> sum = {};
-        double cost = 0;  // of what is drawn so far (render/splat/splat_cost.h)
+        double cost = 0;   // of what is drawn so far (render/splat/splat_cost.h)
+        double slice = 0;  // that is drawn between two looks at the clock; 0: not known yet
     };
     EyeInWork begin(const Prepared& frame, const View& eye);
-    // Draws until this cost is reached, or a little more: what a splatter adds at least.
-    // True when the light is in targets(); before, there is nothing to see.
-    bool goOn(EyeInWork& work, double cost);
+    using Clock = std::chrono::steady_clock;
+    // Draws until this cost is reached, or a little more: what a splatter adds at least. Costs are
+    // of a mean, and what is drawn first, beside the eye, may take many times as long: it ends at
+    // that time, too. True when the light is in targets(); before, there is nothing to see.
+    bool goOn(EyeInWork& work, double cost, Clock::time_point end = Clock::time_point::max());
     double cost(const Prepared& frame, const View& eye) const;  // of the whole eye
     // What the scene's splats cost, by who sums them.
     double splatsCost(const Scene& scene, const View& eye) const;
@@ -126,7 +130,7 @@ class FrameRenderer {
     SummedBy summedBy(const Scene& scene) const {
         return splatters_.sumsByGl(scene) ? SummedBy::Gl : SummedBy::Program;
     }
-    bool drawSplats(EyeInWork& work, double cost);
+    bool drawSplats(EyeInWork& work, double cost, Clock::time_point end);
     void drawWhole(const Prepared& frame, const View& eye,
                    const std::function<void(double)>& progress);
     // Data alone: what the picture shows beside it hides nothing.

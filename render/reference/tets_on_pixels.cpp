@@ -30,38 +30,6 @@ glm::ivec2 PixelBins::squareOf(const glm::dvec2& at) const {
     return glm::ivec2(glm::clamp(at, glm::dvec2(0), glm::dvec2(size_ - 1))) / kSquare;
 }
 
-WindowBox windowBox(const PointsView& view, std::span<const glm::dvec3> corners) {
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    WindowBox box{glm::dvec2(kFar), glm::dvec2(-kFar)};
-    for (const glm::dvec3& corner : corners) {
-        const glm::dvec3 seen(view.viewFromAxes * glm::dvec4(corner, 1.0));
-        if (!(-seen.z > view.rays.near)) return {glm::dvec2(-kFar), glm::dvec2(kFar)};
-        const glm::dvec2 at = view.rays.centre + view.rays.focal * glm::dvec2(seen) / -seen.z;
-        box.lo = glm::min(box.lo, at);
-        box.hi = glm::max(box.hi, at);
-    }
-    return box;
-}
-
-ReachBox::ReachBox(const PointsView& view, const glm::dvec3& reach) : view_(view) {
-    const glm::dmat3 turned(view.viewFromAxes);
-    for (int a = 0; a < 3; ++a) reach_ += glm::abs(turned[a]) * reach[a];
-}
-
-WindowBox ReachBox::operator()(const glm::dvec3& place) const {
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    const glm::dvec3 seen(view_.viewFromAxes * glm::dvec4(place, 1.0));
-    const double nearest = -seen.z - reach_.z, farthest = -seen.z + reach_.z;
-    if (!(nearest > view_.rays.near)) return {glm::dvec2(-kFar), glm::dvec2(kFar)};
-    WindowBox box{};
-    for (int a = 0; a < 2; ++a) {
-        const double lo = seen[a] - reach_[a], hi = seen[a] + reach_[a];
-        box.lo[a] = view_.rays.centre[a] + view_.rays.focal[a] * lo / (lo < 0 ? nearest : farthest);
-        box.hi[a] = view_.rays.centre[a] + view_.rays.focal[a] * hi / (hi < 0 ? farthest : nearest);
-    }
-    return box;
-}
-
 std::optional<PartOnRay> partOnRay(const PointsView& view, const TetSplat<double>& seen,
                                    const glm::dvec2& window) {
     const glm::dvec2 offset = window - view.rays.centre - seen.centre;
@@ -116,24 +84,32 @@ std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& fiel
     const CellsView seen(scene.placed, view);
     const PixelBins bins(pixels, view.size);
     std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
-    forEachTetBefore(scene, field, seen, bins, threads,
-                     [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron& tet,
-                         std::size_t of, std::size_t pixel) {
-                         if (of != layer) return;
-                         double sum = 0;
-                         const OpacityPer per = opacityPerOf(scene, scene.layers[layer]);
-                         for (const auto& range : scene.layers[layer].cells.ranges) {
-                             const auto s = tetSplatAt<double>(
-                                 seen, {tet.at, tet.values, range.lo, range.hi, per});
-                             if (!s.visible) continue;
-                             for (const glm::dvec2& place : places) {
-                                 const glm::dvec2 window = glm::dvec2(pixels[pixel]) + place;
-                                 if (const auto in = partOnRay(seen, s, window))
-                                     sum += passageOf(s, *in, lengthPerDepth(seen, window));
-                             }
-                         }
-                         parts[part][pixel] += sum / static_cast<double>(places.size());
-                     });
+    const OpacityPer per = opacityPerOf(scene, scene.layers[layer]);
+    const auto& ranges = scene.layers[layer].cells.ranges;
+    forEachTetBefore(
+        scene, field, seen, bins, threads,
+        [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron& tet, std::size_t of,
+            const WindowBox& box) {
+            if (of != layer) return;
+            thread_local std::vector<TetSplat<double>> inRanges;  // when a pixel asks for them
+            inRanges.clear();
+            bins.forEachIn(box, [&](std::size_t pixel) {
+                if (inRanges.empty())
+                    for (const auto& range : ranges)
+                        inRanges.push_back(tetSplatAt<double>(
+                            seen, {tet.at, tet.values, range.lo, range.hi, per}));
+                double sum = 0;
+                for (const TetSplat<double>& s : inRanges) {
+                    if (!s.visible) continue;
+                    for (const glm::dvec2& place : places) {
+                        const glm::dvec2 window = glm::dvec2(pixels[pixel]) + place;
+                        if (const auto in = partOnRay(seen, s, window))
+                            sum += passageOf(s, *in, lengthPerDepth(seen, window));
+                    }
+                }
+                parts[part][pixel] += sum / static_cast<double>(places.size());
+            });
+        });
     return addedUp(parts);
 }
 

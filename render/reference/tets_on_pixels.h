@@ -16,14 +16,10 @@
 #include "render/model/scene.h"
 #include "render/points/view.h"
 #include "render/splat/solid_tets.h"
+#include "render/splat/window_box.h"
 #include "render/together.h"
 
 namespace render {
-
-// Where something is seen, in window positions.
-struct WindowBox {
-    glm::dvec2 lo, hi;
-};
 
 // Pixels by squares of the picture, to find those in a rectangle.
 class PixelBins {
@@ -33,6 +29,7 @@ class PixelBins {
     // all at their centres.
     template <typename Use>
     void forEachIn(const WindowBox& box, const Use& use) const {
+        if (box.hi.x < box.lo.x) return;
         const glm::dvec2 lo = box.lo - 1.0, hi = box.hi + 1.0;
         const glm::ivec2 first = squareOf(lo), last = squareOf(hi);
         for (int y = first.y; y <= last.y; ++y)
@@ -59,25 +56,13 @@ class PixelBins {
     std::vector<std::size_t> firsts_, order_;
 };
 
-// All of the picture where a corner is behind the near plane.
-WindowBox windowBox(const PointsView& view, std::span<const glm::dvec3> corners);
-// Of all that is no farther along each axis from places than so much.
-class ReachBox {
- public:
-    ReachBox(const PointsView& view, const glm::dvec3& reach);
-    WindowBox operator()(const glm::dvec3& place) const;
-
- private:
-    const PointsView& view_;
-    glm::dvec3 reach_{0};  // in view space
-};
-
 // The parts that all cells are gone through in, each by one thread: what is summed part by part and
 // then added up in their order is the same for any number of threads.
 inline constexpr std::size_t kCellParts = 16;
 
-// use(part, cell, tet, layer, pixel) for each pixel that may see a tetrahedron which touches
-// ranges of a layer. Looks at the scene's candidates, or without them at all of the field's cells.
+// use(part, cell, tet, layer, box) for each tetrahedron that touches ranges of a layer and may be
+// seen by some of the pixels, those in that box. Looks at the scene's candidates, or without them
+// at all of the field's cells.
 template <typename Use>
 void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const PointsView& view,
                       const PixelBins& pixels, unsigned threads, const Use& use) {
@@ -100,8 +85,7 @@ void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const 
                 const auto [lo, hi] = std::ranges::minmax(tet.values);
                 for (std::size_t k = first; k < last; ++k)
                     if (touches(lo, hi, scene.layers[k]))
-                        pixels.forEachIn(windowBox(view, tet.at),
-                                         [&](std::size_t pixel) { use(part, at, tet, k, pixel); });
+                        use(part, at, tet, k, windowBox(view, tet.at));
             });
         };
         const auto inRun = [&](std::size_t part, const timeseries::Run& run, std::size_t layer) {
@@ -138,19 +122,23 @@ void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const 
     });
 }
 
-// use(part, cell, tet, seen, layer, pixel) for those and each range of the layer in which a
-// tetrahedron is seen.
+// use(part, cell, tet, seen, layer, pixel) for each pixel that may see one of those, and each range
+// of the layer in which it is seen.
 template <typename Use>
 void forEachTetSplat(const Scene& scene, const timeseries::Field& field, const PointsView& view,
                      const PixelBins& pixels, unsigned threads, OpacityPer opacityPer,
                      const Use& use) {
     forEachTetBefore(scene, field, view, pixels, threads,
                      [&](std::size_t part, std::uint32_t cell, const MeshCells::Tetrahedron& tet,
-                         std::size_t layer, std::size_t pixel) {
+                         std::size_t layer, const WindowBox& box) {
                          for (const auto& range : scene.layers[layer].cells.ranges) {
-                             const auto seen = tetSplatAt<double>(
-                                 view, {tet.at, tet.values, range.lo, range.hi, opacityPer});
-                             if (seen.visible) use(part, cell, tet, seen, layer, pixel);
+                             std::optional<TetSplat<double>> seen;  // when a pixel asks for it
+                             pixels.forEachIn(box, [&](std::size_t pixel) {
+                                 if (!seen)
+                                     seen = tetSplatAt<double>(view, {tet.at, tet.values, range.lo,
+                                                                      range.hi, opacityPer});
+                                 if (seen->visible) use(part, cell, tet, *seen, layer, pixel);
+                             });
                          }
                      });
 }

@@ -186,21 +186,33 @@ void forEachPiece(const Scene& scene, std::uint32_t number, const Use& use) {
 }
 
 // The tetrahedra of several cells of a mesh, with each range of their layers: use(tet, of); from an
-// eye that is given, those of a cell each before what it hides.
-template <typename Use>
+// eye that is given, those of a cell each before what it hides. Only of what may be seen:
+// mayBeSeen.within(how far at most)(from a place), and mayBeSeen(places that it lies between).
+template <typename MayBeSeen, typename Use>
 void forEachTet(const Scene& scene, std::span<const CellOfLayer> cells, const glm::dvec3* eye,
-                const Use& use) {
-    const auto anywhere = [](const auto&) { return true; };
+                const MayBeSeen& mayBeSeen, const Use& use) {
     const double unit = scene.gradients ? scene.gradients->range() : 1;
     withTets(scene, scene.cells->field(), [&](const auto& tets) {
-        for (const CellOfLayer& of : cells)
-            tets.forEachTet(of.cell, eye, anywhere, [&](const MeshCells::Tetrahedron& tet) {
+        const auto isNear = mayBeSeen.within(tets.reach());
+        for (const CellOfLayer& of : cells) {
+            if (!isNear(tets.about(of.cell))) continue;
+            tets.forEachTet(of.cell, eye, mayBeSeen, [&](const MeshCells::Tetrahedron& tet) {
                 for (const auto& range : scene.layers[of.layer].cells.ranges)
                     use({tet.at, tet.values, range.lo, range.hi, scene.opacityPer,
                          scene.gradients ? &tet.gradients : nullptr, unit},
                         of);
             });
+        }
     });
+}
+struct SeenAnywhere {
+    bool operator()(const auto&) const { return true; }
+    SeenAnywhere within(const glm::dvec3&) const { return {}; }
+};
+template <typename Use>
+void forEachTet(const Scene& scene, std::span<const CellOfLayer> cells, const glm::dvec3* eye,
+                const Use& use) {
+    forEachTet(scene, cells, eye, SeenAnywhere(), use);
 }
 
 // The octants of several cells, with each range of their layers: use(piece, of, octant).

@@ -7,6 +7,7 @@
 #include "render/splat/cell_batches.h"
 #include "render/splat/cell_kernels.h"
 #include "render/splat/cell_pieces.h"
+#include "render/splat/open_tiles.h"
 #include "render/splat/seen_cells.h"
 #include "render/splat/tet_kernels.h"
 #include "render/splat/tile_bins.h"
@@ -17,8 +18,12 @@ namespace {
 
 // Looked at before they are summed: 16 MB of them.
 constexpr std::uint64_t kAtOnce = 1 << 17;
+// Of a mesh fewer, each of several tetrahedra: then it is known anew what hides the rest. The first
+// ones fill the picture where the eye is among them.
+constexpr std::uint64_t kAtOnceOfMesh = 1 << 15, kFirstOfMesh = 1 << 4;
 // Listed and put in order in the time that one takes to be summed.
 constexpr std::uint64_t kListedForOne = 64;
+constexpr std::uint64_t kListedOfMesh = 1 << 17;  // at once
 // Less is done before another thread has begun.
 constexpr std::size_t kCellsWorthAThread = 1 << 9;
 
@@ -34,8 +39,8 @@ struct CellMemory::Seen {
     TileBins bins;
     std::vector<std::uint32_t> binned;
 
-    void look(const Scene& scene, const CellView& view, const CellBatches& batches,
-              std::span<const CellOfLayer> part);
+    void look(const Scene& scene, const CellView& view, const TilePlane& plane,
+              const CellBatches& batches, std::span<const CellOfLayer> part);
     void sum(const CellView& view, std::size_t tile, TileRoom& room) const {
         const auto which = std::span(binned).subspan(bins.first(tile), bins.count(tile));
         if (tets.tets.empty())
@@ -45,15 +50,15 @@ struct CellMemory::Seen {
     }
 };
 
-void CellMemory::Seen::look(const Scene& scene, const CellView& view, const CellBatches& batches,
-                            std::span<const CellOfLayer> part) {
+void CellMemory::Seen::look(const Scene& scene, const CellView& view, const TilePlane& plane,
+                            const CellBatches& batches, std::span<const CellOfLayer> part) {
     cells.clear();
     slopes.clear();
     tets.clear();
     spans.clear();
     if (scene.placed.isMesh()) {
         const bool isOrdered = view.channels == Channels::Over;
-        forEachTet(scene, part, isOrdered ? &view.seen.rays.eye : nullptr,
+        forEachTet(scene, part, isOrdered ? &view.seen.rays.eye : nullptr, OpenTiles(view, plane),
                    [&](const ValuedTet& tet, const CellOfLayer& of) {
                        if (tets.add(view, tet, of.layer, scene.layers[of.layer].style))
                            spans.push_back(spanOf(view, tets.tets.back()));
@@ -106,6 +111,13 @@ struct CellSum::Work {
         memory.kept->seen.resize(threads);
     }
     bool done() const { return list.done() && passed == list.cells().size(); }
+    std::uint64_t mostListed() const {
+        return scene.placed.isMesh() ? kListedOfMesh / kListedForOne : kAtOnce;
+    }
+    std::uint64_t mostAtOnce() const {
+        if (!scene.placed.isMesh()) return kAtOnce;
+        return passed == 0 && rank ? kFirstOfMesh : kAtOnceOfMesh;
+    }
     void sum(std::span<const CellOfLayer> part, bool lastOfAll);
 };
 
@@ -114,10 +126,12 @@ void CellSum::Work::sum(std::span<const CellOfLayer> part, bool lastOfAll) {
     const std::span<CellMemory::Seen> seen = std::span(memory.kept->seen).first(shared);
     together(shared, [&](unsigned k) {
         const std::size_t first = part.size() * k / shared, last = part.size() * (k + 1) / shared;
-        seen[k].look(scene, view, batches, part.subspan(first, last - first));
+        seen[k].look(scene, view, plane, batches, part.subspan(first, last - first));
     });
+    std::size_t inTiles = part.size();
+    for (const CellMemory::Seen& some : seen) inTiles += some.binned.size();
     plane.sum(
-        shared, lastOfAll,
+        threadsFor(inTiles, kCellsWorthAThread, threads), lastOfAll,
         [&](std::size_t tile) {
             return std::ranges::any_of(
                 seen, [&](const CellMemory::Seen& some) { return some.bins.count(tile) > 0; });
@@ -140,22 +154,21 @@ CellSum::~CellSum() = default;
 
 std::uint64_t CellSum::add(std::uint64_t cells) {
     Work& work = *work_;
+    if (!work.list.done()) {
+        const std::uint64_t count = std::min(work.mostListed(), cells);
+        work.list.goOn(kListedForOne * count);
+        return count;
+    }
     std::uint64_t added = 0;
-    while (!done() && added < cells) {
-        if (!work.list.done()) {
-            const std::uint64_t count = std::min(kAtOnce, cells - added);
-            work.list.goOn(kListedForOne * count);
-            added += count;
-            continue;
-        }
-        const std::span<const CellOfLayer> all = work.list.cells();
+    const std::span<const CellOfLayer> all = work.list.cells();
+    do {
         const std::uint64_t count =
-            std::min({kAtOnce, cells - added, std::uint64_t{all.size() - work.passed}});
+            std::min({work.mostAtOnce(), cells - added, std::uint64_t{all.size() - work.passed}});
         const std::span<const CellOfLayer> part = all.subspan(work.passed, count);
         work.passed += count;
         work.sum(part, done());
         added += count;
-    }
+    } while (!done() && added < cells && !work.scene.placed.isMesh());
     return added;
 }
 

@@ -42,8 +42,9 @@ class CellSum {
     CellSum(CellSum&&) noexcept;
     ~CellSum();
 
-    // So many, or what is left; returns how many. First they are listed and put in order, of which
-    // some count as one, so that this, too, may be done in slices.
+    // So many, or what is left, or of a mesh, whose cells do not cost alike, fewer; returns how
+    // many. First they are listed and put in order, of which some count as one, so that this, too,
+    // may be done in slices.
     std::uint64_t add(std::uint64_t cells);
     bool done() const;
     const PixelBox& box() const;

@@ -48,6 +48,7 @@ MeshCells::MeshCells(const PlacedPoints& placed, const timeseries::CellCorners& 
     : placed_(placed),
       corners_(corners),
       clip_(clip),
+      cut_(placed, clip),
       gradients_(placed, gradients),
       points_(placed.size()) {
     const glm::dvec3 scale = placed.scale();
@@ -56,7 +57,7 @@ MeshCells::MeshCells(const PlacedPoints& placed, const timeseries::CellCorners& 
     reach_ = reachOf(placed, kSteps * mesh.longestWay());
     if (points_.x == 1 || points_.y == 1 || points_.z == 1)
         reach_ = glm::dvec3(std::numeric_limits<double>::infinity());
-    clips_ = !clip.holdsAll();
+    byPoints_ = !clip.holdsAll() && !cut_.cuts();
     isLeft_ = (placed.mesh()->stored().sign < 0) != (scale.x * scale.y * scale.z < 0);
 }
 
@@ -189,7 +190,7 @@ std::optional<MeshCells::Hexahedron> MeshCells::operator()(const glm::uvec3& cel
     Hexahedron out{};
     out.values = corners_.values(cell);
     out.octants = fillMissing(out.values);
-    if (clips_)
+    if (byPoints_)
         for (unsigned c = 0; c < 8; ++c)
             if (!placed_.inside(corners_.indexOf(corners_.pointAt(cell, c)), clip_))
                 out.octants &= ~(1u << c);

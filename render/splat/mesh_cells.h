@@ -13,6 +13,7 @@
 
 #include "render/model/tet_splat.h"
 #include "render/points/placed_points.h"
+#include "render/splat/tet_clip.h"
 #include "timeseries/index/cell_corners.h"
 #include "timeseries/index/point_gradients.h"
 
@@ -54,21 +55,17 @@ class MeshCells {
         std::array<glm::dvec3, 8> gradients;  // as MeshGradients has them, if there are some
         unsigned octants = 0;                 // that are seen, as of SeenOctants
     };
-    // None where nothing is seen: a corner has no place, or none a value within the clip box. Half
+    // None where nothing is seen: a corner has no place, or none a value, or, where the clip box
+    // does not cut cells (TetClip), none a value within it. Half
     // cells beyond the outermost points reach as far as half the way to the points before these,
     // and nowhere where a grid comes round to where it began; on a globe those of the first and the
     // last longitude meet. A layer of points is as thick as its
     // points' cells.
     std::optional<Hexahedron> operator()(const glm::uvec3& cell) const;
-    struct Tetrahedron {
-        std::array<glm::dvec3, 4> at;
-        std::array<double, 4> values;
-        std::array<unsigned, 4> corners;      // of the cell; of an octant, its own
-        std::array<glm::dvec3, 4> gradients;  // if there are some
-    };
-    // use(Tetrahedron) for those that fill what is seen of it; from an eye that is given, each
-    // before what it hides. Those that are turned inside out beside most of the grid's are left
-    // out, as points' cells are.
+    using Tetrahedron = render::Tetrahedron;
+    // use(Tetrahedron) for those that fill what is seen of it, within the clip box; from an eye
+    // that is given, each before what it hides. Those that are turned inside out beside most of the
+    // grid's are left out, as points' cells are.
     template <typename Use>
     void forEachTet(const Hexahedron& cell, const glm::dvec3* eye, const Use& use) const;
     // The six, right-handed where it is.
@@ -156,10 +153,11 @@ class MeshCells {
     const PlacedPoints& placed_;
     timeseries::CellCorners corners_;
     const IndexBox& clip_;
+    TetClip cut_;
     MeshGradients gradients_;
     glm::uvec3 points_;
     glm::dvec3 period_, reach_;
-    bool clips_, isLeft_;  // most cells of the grid are left-handed
+    bool byPoints_, isLeft_;  // the box clips so; most cells of the grid are left-handed
 };
 
 template <typename Use>
@@ -221,7 +219,9 @@ void MeshCells::forEachTet(const Hexahedron& cell, const glm::dvec3* eye, const 
     const auto fill = [&](const Hexahedron& part, std::optional<unsigned> octant) {
         forEachTetIn(part, eye, [&](Tetrahedron& tet) {
             if (octant) tet.corners.fill(*octant);
-            if ((turnOf(tet.at) < 0) == isLeft_) use(tet);
+            if ((turnOf(tet.at) < 0) != isLeft_) return;
+            if (cut_.cuts()) return cut_(tet, eye, use);
+            use(tet);
         });
     };
     if (cell.octants == 255) return fill(cell, std::nullopt);

@@ -62,7 +62,7 @@ unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron
         tet.corners[i] = points[i];
         if (gradients_) tet.gradients[i] = gradients_.at(points[i]);
         tet.values[i] = timeseries::finiteValue(field_, points[i]);
-        if (!clips_ || placed_.inside(points[i], clip_)) inside |= 1u << i;
+        if (!byPoints_ || placed_.inside(points[i], clip_)) inside |= 1u << i;
     }
     const unsigned seen = inside & timeseries::fillTetrahedron(tet.values);
     if (comesRound_) {

@@ -20,10 +20,10 @@
 
 namespace render {
 
-// A tetrahedron of which a corner has no value, or is beside the clip box, is drawn where the
-// others are the nearest in shares: of each of these the hexahedron between it and the middles of
-// the edges, faces and tetrahedron that it is of, in which the field goes on as it was. What it is
-// made of must outlive it.
+// A tetrahedron of which a corner has no value, or is beside a clip box that does not cut cells
+// (TetClip), is drawn where the others are the nearest in shares: of each of these the hexahedron
+// between it and the middles of the edges, faces and tetrahedron that it is of, in which the field
+// goes on as it was. What it is made of must outlive it.
 class SolidTets {
  public:
     // REQUIRES: the placed points' mesh, and the field's grid's, has solids().
@@ -33,8 +33,9 @@ class SolidTets {
           cells_(*placed.mesh()->solids()),
           field_(field),
           clip_(clip),
+          cut_(placed, clip),
           gradients_(placed, gradients),
-          clips_(!clip.holdsAll()),
+          byPoints_(!clip.holdsAll() && !cut_.cuts()),
           byMiddles_(byMiddles),
           period_(placed.period()),
           comesRound_(period_ != glm::dvec3(0)),
@@ -116,8 +117,10 @@ class SolidTets {
     const timeseries::SolidCells& cells_;
     const timeseries::Field& field_;
     const IndexBox& clip_;
+    TetClip cut_;
     MeshGradients gradients_;
-    bool clips_, byMiddles_;  // a cell's tetrahedra come so, as Scene::byMiddles
+    bool byPoints_;   // the box clips so
+    bool byMiddles_;  // a cell's tetrahedra come so, as Scene::byMiddles
     glm::dvec3 period_;
     bool comesRound_;
     double mapFrom_, mapTo_;  // where the points are, along what comes round
@@ -258,7 +261,10 @@ void SolidTets::forEachTet(std::uint32_t cell, const glm::dvec3* eye, const MayB
         if (part.seen == 0 || !mayBeSeen(part.tet.at)) return;
         parts.push_back(part);
     });
-    const auto pass = [&](const Drawn& part) { forEachSeen(part.tet, part.seen, eye, use); };
+    const auto pass = [&](const Drawn& part) {
+        if (!cut_.cuts()) return forEachSeen(part.tet, part.seen, eye, use);
+        forEachSeen(part.tet, part.seen, eye, [&](const Tetrahedron& tet) { cut_(tet, eye, use); });
+    };
     if (eye && parts.size() > 1) {
         for (Drawn& part : parts) {
             const auto& at = part.tet.at;

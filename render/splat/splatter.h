@@ -16,8 +16,8 @@ namespace render {
 class PlaneSum {
  public:
     virtual ~PlaneSum() = default;
-    // Adds that many splats, or the least that is worth a call, or what is left. Returns how many.
-    // Not a bit of the sum depends on the number of calls.
+    // Adds that many splats, or fewer where they do not cost alike, or the least that is worth a
+    // call, or what is left. Returns how many. Not a bit of the sum depends on the number of calls.
     virtual std::uint64_t add(std::uint64_t splats) = 0;
     virtual bool done() const = 0;  // The plane is in the targets; before, there is nothing to see.
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <utility>
 
 namespace render {
 namespace {
@@ -24,7 +23,7 @@ TilePlane::TilePlane(const TileLayout& layout, std::span<const float> opaqueDept
       rays_(rays),
       floats_(floatsPerPixel(layout.channels)),
       rooms_(threads, TileRoom(layout)),
-      begun_(layout.count()) {
+      tiles_(layout.count()) {
     plane_.resize(floatsOf(layout.pixels));
 }
 
@@ -62,7 +61,8 @@ void TilePlane::clear(std::size_t tile) {
 // Into sums channel by channel; of a tile that nothing has touched yet, none.
 void TilePlane::load(std::size_t tile, TileRoom& room) {
     room.enter(layout_, tile, opaqueDepth_, pictureWidth_);
-    if (!std::exchange(begun_[tile], 1)) {
+    if (tiles_[tile] == Tile::Untouched) {
+        tiles_[tile] = Tile::Begun;
         std::ranges::fill(room.sums, 0.0f);
         return;
     }

@@ -30,21 +30,27 @@ class TilePlane {
         if (!lastOfAll) rays_.resize(floatsOf(layout_.box));
         std::atomic<std::size_t> next{0};
         together(threads, [&](unsigned k) {
-            for (std::size_t tile; (tile = next++) < begun_.size();) {
-                const bool held = holds(tile);
+            for (std::size_t tile; (tile = next++) < tiles_.size();) {
+                const bool held = holds(tile) && !isClosed(tile);
                 if (!held && !lastOfAll) continue;
-                if (!held && begun_[tile] == 0) {
+                if (!held && tiles_[tile] == Tile::Untouched) {
                     clear(tile);
                     continue;
                 }
                 load(tile, rooms_[k]);
-                add(k, tile, rooms_[k]);
+                if (held) add(k, tile, rooms_[k]);
                 store(rooms_[k], lastOfAll);
+                if (layout_.channels == Channels::Over && rooms_[k].isClosed())
+                    tiles_[tile] = Tile::Closed;
             }
         });
     }
 
+    // Nothing that comes later is seen anywhere in it.
+    bool isClosed(std::size_t tile) const { return tiles_[tile] == Tile::Closed; }
+
  private:
+    enum class Tile : std::uint8_t { Untouched, Begun, Closed };
     std::size_t floatsOf(const PixelBox& box) const;
     void clear(std::size_t tile);
     void load(std::size_t tile, TileRoom& room);
@@ -61,7 +67,7 @@ class TilePlane {
     PlanePixels &plane_, &rays_;
     std::size_t floats_;
     std::vector<TileRoom> rooms_;
-    std::vector<std::uint8_t> begun_;  // tiles
+    std::vector<Tile> tiles_;
 };
 
 }  // namespace render

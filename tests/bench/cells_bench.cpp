@@ -93,7 +93,7 @@ void cellsBesidePoints(benchmark::State& state) {
         state,
         [&] {
             TileSum sum(points, list, view, channels, 0, {}, sharingThreads(), std::move(tiles));
-            sum.add(kAll);
+            while (!sum.done()) sum.add(kAll);
             tiles = sum.takeMemory();
         },
         [&] { cells.draw(channels); });

@@ -45,7 +45,7 @@ struct CellsOfRange {
     void draw(render::Channels channels) {
         render::CellSum sum(scene, view, channels, 0, {}, 1, render::sharingThreads(),
                             std::move(memory));
-        sum.add(std::numeric_limits<std::uint64_t>::max());
+        while (!sum.done()) sum.add(std::numeric_limits<std::uint64_t>::max());
         memory = sum.takeMemory();
     }
     const render::View view = tests::lookFrom({1.2, -2.6, 0.9}, {1024, 1024}, 0.36);

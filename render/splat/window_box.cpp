@@ -1,0 +1,51 @@
+#include "render/splat/window_box.h"
+
+#include <cstddef>
+#include <glm/common.hpp>
+#include <limits>
+
+namespace render {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr WindowBox kNothing{glm::dvec2(kFar), glm::dvec2(-kFar)};
+constexpr WindowBox kEverything{glm::dvec2(-kFar), glm::dvec2(kFar)};
+
+}  // namespace
+
+WindowBox windowBox(const PointsView& view, std::span<const glm::dvec3> corners) {
+    WindowBox box = kNothing;
+    std::size_t behind = 0;
+    for (const glm::dvec3& corner : corners) {
+        const glm::dvec3 seen(view.viewFromAxes * glm::dvec4(corner, 1.0));
+        if (!(-seen.z > view.rays.near)) {
+            ++behind;
+            continue;
+        }
+        const glm::dvec2 at = view.rays.centre + view.rays.focal * glm::dvec2(seen) / -seen.z;
+        box.lo = glm::min(box.lo, at);
+        box.hi = glm::max(box.hi, at);
+    }
+    return behind == 0 || behind == corners.size() ? box : kEverything;
+}
+
+ReachBox::ReachBox(const PointsView& view, const glm::dvec3& reach) : view_(view) {
+    const glm::dmat3 turned(view.viewFromAxes);
+    for (int a = 0; a < 3; ++a) reach_ += glm::abs(turned[a]) * reach[a];
+}
+
+WindowBox ReachBox::operator()(const glm::dvec3& place) const {
+    const glm::dvec3 seen(view_.viewFromAxes * glm::dvec4(place, 1.0));
+    const double nearest = -seen.z - reach_.z, farthest = -seen.z + reach_.z;
+    if (!(farthest > view_.rays.near)) return kNothing;
+    if (!(nearest > view_.rays.near)) return kEverything;
+    WindowBox box{};
+    for (int a = 0; a < 2; ++a) {
+        const double lo = seen[a] - reach_[a], hi = seen[a] + reach_[a];
+        box.lo[a] = view_.rays.centre[a] + view_.rays.focal[a] * lo / (lo < 0 ? nearest : farthest);
+        box.hi[a] = view_.rays.centre[a] + view_.rays.focal[a] * hi / (hi < 0 ? farthest : nearest);
+    }
+    return box;
+}
+
+}  // namespace render

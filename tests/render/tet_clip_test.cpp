@@ -1,0 +1,200 @@
+// Clip boxes of meshes: cells are cut where the box ends, whatever their shapes, against what rays
+// pass of the box.
+#include "render/splat/tet_clip.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "render/model/tet_splat.h"
+#include "render/reference/cells_on_rays.h"
+#include "tests/support/cell_rays.h"
+#include "tests/support/geographic.h"
+#include "tests/support/meshes.h"
+#include "tests/support/unstructured.h"
+
+namespace render {
+namespace tet_clip {
+namespace {
+
+using tests::CellWorld;
+using tests::stepOfPlaces;
+using tests::cells::inside;
+using tests::cells::kFrom;
+using timeseries::Grid;
+
+// Bent inside a box of 4 x 3 x 5.
+std::vector<std::shared_ptr<const Grid>> bentGrids() {
+    std::vector<std::shared_ptr<const Grid>> grids{tests::curvilinear(
+        {5, 4, 6}, [](double i, double j, double k) { return tests::bent(i, j, k); })};
+    for (const tests::Cut cut : tests::kCuts)
+        grids.push_back(tests::gridOf(tests::atPoints(tests::bentBricks(cut))));
+    return grids;
+}
+
+IndexBox boxOf(const glm::dvec3& from, const glm::dvec3& to) {
+    IndexBox box;
+    box.from = from;
+    box.to = to;
+    return box;
+}
+
+PlacedPoints::Box inAxes(const CellWorld& world, const glm::dvec3& from, const glm::dvec3& to) {
+    const glm::dvec3 a = world.placed.axesFromGrid(from), b = world.placed.axesFromGrid(to);
+    return {glm::min(a, b), glm::max(a, b)};
+}
+
+// What is drawn of a field, all of which is in the range, is the box.
+TEST(TetClip, CellsEndWhereTheBoxDoes) {
+    const glm::dvec3 from(1.23, 0.21, 0.7), to(2.61, 1.37, 4.9);
+    for (const auto& grid : bentGrids()) {
+        CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.x; }), {"0:4"});
+        world.scene.clip = boxOf(from, to);
+        const PlacedPoints::Box left = inAxes(world, from, to);
+        for (const glm::dvec3& eye : kFrom) {
+            const View view = tests::lookFrom(eye, {40, 30}, 0.1);
+            std::vector<glm::ivec2> pixels;
+            for (int i = 0; i < 1200; ++i) pixels.emplace_back(i % 40, i / 40);
+            const std::vector<double> depth = cellDepthAt(world.scene, view, pixels);
+            const double perWeight = opticalDepthPerWeight(world.scene.layers[0].style.opacity);
+            for (std::size_t i = 0; i < pixels.size(); ++i)
+                ASSERT_NEAR(depth[i] / perWeight,
+                            tests::cells::pathThrough(world, view, pixels[i].x, pixels[i].y, left),
+                            2e-5)
+                    << pixels[i].x << " " << pixels[i].y << " from " << eye.x;
+            const std::vector<float> w = tests::drawn(world.scene, view);
+            for (std::size_t i = 0; i < pixels.size(); ++i)
+                ASSERT_NEAR(w[i], depth[i] / perWeight, 1e-3);
+        }
+    }
+}
+
+// In it the field goes on as it was: a range of one that is linear is a slab of the box, lit and
+// coloured as without it. In order the parts of a cell come the nearest first.
+TEST(TetClip, TheFieldGoesOnInWhatIsLeft) {
+    for (const auto& grid : bentGrids()) {
+        CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.x + 2 * p.y; }), {"1:8"},
+                        0.9);
+        world.scene.layers[0].style.color = ByValue{{}, 1, 8};
+        world.scene.order = Order::BackToFront;
+        const View view = tests::lookFrom({-0.6, -3, 0.4}, {40, 30}, 0.1);
+        const auto whole = tests::drawn(world.scene, view, Channels::Over);
+        // All that the eye, far away on this side, sees lies before this.
+        world.scene.clip = boxOf(glm::dvec3(-9), {9, 2.3, 9});
+        const auto left = tests::drawn(world.scene, view, Channels::Over);
+        double off = 0, all = 0;
+        for (std::size_t i = 0; i < whole.size(); ++i) {
+            off += (whole[i] - left[i]) * (whole[i] - left[i]);
+            all += whole[i] * whole[i];
+        }
+        EXPECT_LT(std::sqrt(off / all), 3e-2);
+        EXPECT_GT(off, 0) << "or nothing was cut";
+    }
+}
+
+Tetrahedron anyTet(std::mt19937& random) {
+    std::uniform_real_distribution<double> any(-1, 1);
+    Tetrahedron tet{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        tet.at[i] = {any(random), any(random), any(random)};
+        tet.values[i] = glm::dot(tet.at[i], glm::dvec3(3, -2, 1));
+        tet.gradients[i] = 2.0 * tet.at[i];
+        tet.corners[i] = unsigned(i);
+    }
+    return tet;
+}
+
+// What both sides of a plane have adds up; parts are turned as they were, linear between corners,
+// and know the corner that they are beside.
+TEST(TetClip, PartsAreAllOfATetrahedron) {
+    const CellWorld world(stepOfPlaces(bentGrids().back(), [](const auto& p) { return p.x; }),
+                          {"0:4"});
+    std::mt19937 random(7);
+    const double at = world.placed.axesFromGrid({1.7, 0, 0}).x;
+    int crossed = 0;
+    for (int n = 0; n < 500; ++n) {
+        const Tetrahedron tet = anyTet(random);
+        double volume = 0;
+        int parts = 0;
+        for (const bool above : {false, true}) {
+            IndexBox box;
+            (above ? box.from : box.to).x = 1.7;
+            TetClip(world.placed, box)(tet, nullptr, [&](const Tetrahedron& part) {
+                ++parts;
+                volume += turnOf(part.at);
+                for (std::size_t i = 0; i < 4; ++i) {
+                    EXPECT_TRUE(above ? part.at[i].x >= at : part.at[i].x <= at);
+                    EXPECT_NEAR(part.values[i], glm::dot(part.at[i], glm::dvec3(3, -2, 1)), 1e-12);
+                    EXPECT_NEAR(glm::length(part.gradients[i] - 2.0 * part.at[i]), 0, 1e-12);
+                    const double corner = tet.at[part.corners[i]].x;
+                    EXPECT_TRUE(above ? corner >= at : corner <= at);
+                }
+            });
+        }
+        EXPECT_NEAR(volume, turnOf(tet.at), 1e-12);
+        crossed += parts > 1 ? 1 : 0;
+    }
+    EXPECT_GT(crossed, 100);
+}
+
+// So do those in a corner of the box, whose parts come the nearest first.
+TEST(TetClip, PartsInABoxAreCutBySixPlanesAndComeInOrder) {
+    const CellWorld world(stepOfPlaces(bentGrids().back(), [](const auto& p) { return p.x; }),
+                          {"0:4"});
+    const PlacedPoints::Box box = inAxes(world, {1, 1, 1.5}, {3, 2, 3.5});
+    const TetClip clip(world.placed, boxOf({1, 1, 1.5}, {3, 2, 3.5}));
+    const glm::dvec3 eye(2, 1, -3);
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> any(0, 1);
+    for (int n = 0; n < 200; ++n) {
+        const Tetrahedron tet = anyTet(random);
+        double volume = 0, before = 0;
+        clip(tet, &eye, [&](const Tetrahedron& part) {
+            volume += std::abs(turnOf(part.at)) / 6;
+            const double away =
+                glm::distance(eye, 0.25 * (part.at[0] + part.at[1] + part.at[2] + part.at[3]));
+            EXPECT_GE(away, before);
+            before = away;
+        });
+        // By chance: of places in the box those that are in the tetrahedron.
+        constexpr int kPlaces = 20'000;
+        const glm::dmat3 edges(tet.at[1] - tet.at[0], tet.at[2] - tet.at[0], tet.at[3] - tet.at[0]);
+        const glm::dmat3 shares = glm::inverse(edges);
+        int in = 0;
+        for (int k = 0; k < kPlaces; ++k) {
+            const glm::dvec3 place =
+                glm::mix(box.lo, box.hi, glm::dvec3(any(random), any(random), any(random)));
+            const glm::dvec3 b = shares * (place - tet.at[0]);
+            in += b.x >= 0 && b.y >= 0 && b.z >= 0 && b.x + b.y + b.z <= 1 ? 1 : 0;
+        }
+        const glm::dvec3 sides = box.hi - box.lo;
+        const double all = sides.x * sides.y * sides.z;
+        EXPECT_NEAR(volume / all, double(in) / kPlaces, 0.02);
+    }
+}
+
+// A face of the box that no point is beyond cuts nothing of the half cells around the outermost.
+TEST(TetClip, HalfCellsStayWhereTheBoxHoldsAllPoints) {
+    const auto grid = bentGrids().front();
+    CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.x; }), {"0:4"});
+    const View view = tests::lookFrom(kFrom[0], {40, 30}, 0.1);
+    const auto all = tests::drawn(world.scene, view);
+    world.scene.clip = boxOf({0, 0, 0}, {4, 3, 5});
+    EXPECT_EQ(tests::drawn(world.scene, view), all);
+}
+
+// A globe's box is of its longitudes and latitudes, which are no planes.
+TEST(TetClip, OfAGlobeIsByPoints) {
+    const auto belt =
+        tests::gridOf(tests::east(0, 40, 5), tests::north(0, 30, 4), tests::levels(3));
+    const IndexBox box = indexBox(*belt, {0, 0, 0}, {40, 10, 2});
+    EXPECT_FALSE(TetClip(PlacedPoints(*belt, {}, Map::Globe), box).cuts());
+    EXPECT_FALSE(TetClip(PlacedPoints(*bentGrids().front()), {}).cuts());
+    EXPECT_TRUE(TetClip(PlacedPoints(*bentGrids().front()), boxOf({0, 0, 0}, {4, 1, 5})).cuts());
+}
+
+}  // namespace
+}  // namespace tet_clip
+}  // namespace render
