@@ -36,6 +36,7 @@
 #include "render/model/footprint.h"
 #include "render/model/ramps.h"
 #include "render/model/scene.h"
+#include "render/model/seen_bounds.h"
 
 namespace render {
 
@@ -317,8 +318,19 @@ CellSplat<Real> cellSplatAt(const PointsView& view, const ValuedCell& cell) {
         s.hi = most + kMore;
     } else {
         s.at = Vec3((rays.eye - middle) / size);
-        s.lo = Vec2(-std::numeric_limits<Real>::max());
-        s.hi = -s.lo;
+        SeenBounds bounds(rays);
+        const auto cornerOf = [&](unsigned c) {
+            glm::dvec3 v = seen;
+            for (unsigned a = 0; a < 3; ++a)
+                v += (c >> a & 1 ? 0.5 : -0.5) * size[static_cast<int>(a)] *
+                     glm::dvec3(view.viewFromAxes[static_cast<int>(a)]);
+            return v;
+        };
+        for (unsigned c = 0; c < 8; ++c)
+            for (unsigned a = 0; a < 3; ++a)
+                if ((c >> a & 1) == 0) bounds.take(cornerOf(c), cornerOf(c | 1u << a));
+        s.lo = inFloats<Real>(bounds.lo());
+        s.hi = inFloats<Real>(bounds.hi());
     }
     s.ray = Vec3(rays.along(s.centre) / size);
     s.right = Vec3(rays.perPixelX / size);

@@ -25,6 +25,7 @@
 
 #include "render/model/cell_splat.h"
 #include "render/model/footprint.h"
+#include "render/model/seen_bounds.h"
 
 namespace render {
 
@@ -161,8 +162,10 @@ TetSplat<Real> tetSplatAt(const PointsView& view, const ValuedTet& tet) {
     } else {
         for (std::size_t i = 1; i < 4; ++i) at[i] = glm::dot(slopes[i], rays.eye - tet.at[0]);
         at[0] = 1 - at[1] - at[2] - at[3];
-        s.lo = Vec2(-std::numeric_limits<Real>::max());
-        s.hi = -s.lo;
+        SeenBounds bounds(rays);
+        bounds.takeHull(seen);
+        s.lo = inFloats<Real>(bounds.lo());
+        s.hi = inFloats<Real>(bounds.hi());
     }
     const glm::dvec3 ray = rays.along(s.centre);
     const auto changeOf = [&](const glm::dvec3& way) {  // of the shares

@@ -54,8 +54,20 @@ void main() {
         }
         lo = max(lo, least - kMore);
         hi = min(hi, most + kMore);
-        if (any(greaterThanEqual(lo, hi))) return;
+    } else {
+        vec2 least = vec2(1e30), most = vec2(-1e30);
+        for (int c = 0; c < 8; ++c)
+            for (int a = 0; a < 3; ++a) {
+                if ((c >> a & 1) != 0) continue;
+                const vec3 side = vec3(c & 1, c >> 1 & 1, c >> 2) * 2.0 - 1.0;
+                const vec3 v = seen + side.x * edge[0] + side.y * edge[1] + side.z * edge[2];
+                takeEdge(v, v + 2.0 * edge[a], near, focal, least, most);
+            }
+        const vec2 more = moreBeside(least, most);
+        lo = max(lo, least - more);
+        hi = min(hi, most + more);
     }
+    if (any(greaterThanEqual(lo, hi))) return;
     centreAndBase = vec4(centre, base, 0.0);
     map = vec4(p.mapPlace, p.mapPerValue, 0.0, 0.0);
     kind = uvec2(p.kind >> 4 & 3u, p.kind >> 8);

@@ -28,6 +28,22 @@ float widestRamp(float least, float most, uint crosses, float flatness) {
 // As cellSplatAt has it: more than arithmetic loses.
 const float kMore = 0.01;
 
+// As SeenBounds in render/model/seen_bounds.h, of an edge in view space: window offsets from the view axis.
+void takeEdge(vec3 a, vec3 b, float near, vec2 focal, inout vec2 least, inout vec2 most) {
+    const bool isA = -a.z > near, isB = -b.z > near;
+    vec2 places[3] = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
+    int count = 0;
+    if (isA) places[count++] = a.xy / -a.z;
+    if (isB) places[count++] = b.xy / -b.z;
+    if (isA != isB) places[count++] = mix(a.xy, b.xy, (near + a.z) / (a.z - b.z)) / near;
+    for (int k = 0; k < count; ++k) {
+        least = min(least, focal * places[k]);
+        most = max(most, focal * places[k]);
+    }
+}
+// More than arithmetic loses of these, too.
+vec2 moreBeside(vec2 least, vec2 most) { return kMore + 1e-5 * max(abs(least), abs(most)); }
+
 uint pieceOfVertex() {
     const uint number = first + uint(gl_VertexID) / 6u;
 #ifdef ORDERED

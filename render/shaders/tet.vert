@@ -62,10 +62,16 @@ void main() {
         }
         lo = max(lo, least - kMore);
         hi = min(hi, most + kMore);
-        if (any(greaterThanEqual(lo, hi))) return;
     } else {
         at = along(view.eye.xyz - first, slopes) + vec4(1.0, 0.0, 0.0, 0.0);
+        vec2 least = vec2(1e30), most = vec2(-1e30);
+        for (int i = 0; i < 4; ++i)
+            for (int k = 0; k < i; ++k) takeEdge(seen[i], seen[k], near, focal, least, most);
+        const vec2 more = moreBeside(least, most);
+        lo = max(lo, least - more);
+        hi = min(hi, most + more);
     }
+    if (any(greaterThanEqual(lo, hi))) return;
     map = vec4(p.mapPlace, p.mapPerValue, 0.0, 0.0);
     kind = uvec2(p.kind >> 4 & 3u, p.kind >> 8);
     ray = along(view.rayAxis.xyz + centre.x * view.perPixelX.xyz + centre.y * view.perPixelY.xyz, slopes);
