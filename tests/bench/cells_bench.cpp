@@ -184,6 +184,24 @@ BENCHMARK(tetsByFacesBesideMiddles)
     ->Iterations(7)
     ->Unit(benchmark::kMillisecond);
 
+// An eye among the cells, beside one that sees them all from outside. Of one layer of each grid a
+// part is behind the eye.
+void cellsFromWithin(benchmark::State& state) {
+    timeseries::Field field = bench::turbulence<float>(96);
+    if (state.range(0) > 0) field.grid = bench::latticeOneByOne(96, state.range(0) == 2);
+    const bool isOrdered = state.range(1) != 0;
+    CellsOfRange outside(field, 1000, isOrdered), within(std::move(field), 1000, isOrdered);
+    within.view = tests::lookFrom({0.06, -0.11, 0.05}, {1024, 1024}, 0.36);
+    const Channels channels = channelsFor(outside.scene)[0];
+    bench::alternate(
+        state, [&] { outside.draw(channels); }, [&] { within.draw(channels); });
+}
+BENCHMARK(cellsFromWithin)
+    ->ArgNames({"kind", "ordered"})
+    ->ArgsProduct({{0, 1, 2}, {0, 1}})
+    ->Iterations(3)
+    ->Unit(benchmark::kMillisecond);
+
 // How a field changes about the points of a mesh, beside the list of its cells by value.
 void gradientsBesideCells(benchmark::State& state) {
     timeseries::Field made = bench::turbulence<float>(128);

@@ -48,7 +48,7 @@ struct CellsOfRange {
         while (!sum.done()) sum.add(std::numeric_limits<std::uint64_t>::max());
         memory = sum.takeMemory();
     }
-    const render::View view = tests::lookFrom({1.2, -2.6, 0.9}, {1024, 1024}, 0.36);
+    render::View view = tests::lookFrom({1.2, -2.6, 0.9}, {1024, 1024}, 0.36);
     timeseries::SortedStep step;
     render::PlacedPoints placed;
     render::Scene scene;

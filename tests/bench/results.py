@@ -361,6 +361,15 @@ def cells_page(part):
     if rows:
         text += ("\nFrames of them put in order by the faces between cells, as at rest and in files, beside the distance of cells' middles, as while the picture moves.\n\n"
                  + table(["cells", "by middles", "by faces", "ratio"], rows))
+    rows = []
+    for kind, name in enumerate(["upright", *kinds]):
+        for ordered in (0, 1):
+            f = part(f"cellsFromWithin/kind:{kind}/ordered:{ordered}")
+            if f:
+                rows.append([name, "front to back" if ordered else "none", ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"])])
+    if rows:
+        text += ("\nCells of 96³ points, a range of 1, from an eye among them, beside one that sees all from outside.\n\n"
+                 + table(["cells", "order", "from outside", "from within", "ratio"], rows))
     under = [(kind, part(f"cellUnderCursorOfMesh/points:96/thousandths:1000/solids:{solids}")) for solids, kind in enumerate(kinds)]
     if all(f for _, f in under):
         text += "\nUnder the cursor, of " + " and of ".join(
