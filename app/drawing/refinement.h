@@ -28,9 +28,9 @@ class Refinement {
     // Goes on with what the program makes before it draws, a draw list or cells for GL, for about
     // as long as a frame takes. True when it is there.
     bool order();
-    // Draws until `cost` is reached (render/splat/splat_cost.h), a little more than that, and hands
-    // each eye's light to `show` once it is whole. Returns what it cost. REQUIRES: order(), and not
-    // done.
+    // Draws until `cost` is reached (render/splat/splat_cost.h), a little more than that, and of
+    // cells no longer than two frames take; hands each eye's light to `show` once it is whole.
+    // Returns what it cost. REQUIRES: order(), and not done.
     double goOn(double cost, const std::function<void(std::size_t eye, render::Targets&)>& show);
     bool done() const { return eye_ == eyes_.size(); }
     double share() const;  // of all that is to be done, [0, 1]

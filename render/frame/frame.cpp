@@ -229,7 +229,7 @@ bool FrameRenderer::drawSplats(EyeInWork& work, double cost, Clock::time_point e
                         content.placards, work.planes, targets);
     const double until = work.cost + std::max(cost, 1.0);
     const bool looksAtClock = end != Clock::time_point::max();
-    if (work.slice == 0) work.slice = looksAtClock ? cost / kFirstSlices : kAll;
+    if (work.slice == 0) work.slice = looksAtClock ? std::max(cost, 1.0) / kFirstSlices : kAll;
     for (; work.plane < channels.size(); ++work.plane, work.sum.reset()) {
         if (work.cost >= until) return false;
         if (!work.sum)

@@ -10,6 +10,7 @@ namespace render {
 namespace {
 
 constexpr double kMost = 1e9;  // its square is a float
+constexpr double kMostUnits = 1e300;
 
 }  // namespace
 
@@ -108,11 +109,25 @@ CellSlopes PointSlopes::atCorners(const glm::uvec3& cell, const glm::dvec3& size
 }
 
 CellSlopes PointSlopes::in(std::uint32_t cell, unsigned octant, const glm::dvec3& size,
-                           double extent) const {
-    CellSlopes slopes = atCorners(cells_(cell), size, extent);
+                           double extent, OfOctants& last) const {
+    const bool isWhole = octant == kWholeCell;
+    CellSlopes slopes{};
+    if (isWhole)
+        slopes = atCorners(cells_(cell), size, extent);
+    else if (extent > 0) {
+        if (last.cell != cell) {
+            last = {.cell = cell, .unit = std::exp2(std::ilogb(extent)), .gradients = {}};
+            last.gradients = gradients(cells_(cell), last.unit);
+        }
+        const glm::dvec3 perGradient = size * std::min(last.unit / extent, kMostUnits);
+        for (unsigned c = 0; c < 8; ++c)
+            for (int a = 0; a < 3; ++a)
+                slopes[static_cast<std::size_t>(a)][c] = static_cast<float>(
+                    std::clamp(last.gradients[c][a] * perGradient[a], -kMost, kMost));
+    }
     for (std::array<float, 8>& along : slopes) {
         std::array<float, 8> of = along;
-        for (unsigned c = 0; c < 8 && octant != kWholeCell; ++c)
+        for (unsigned c = 0; c < 8 && !isWhole; ++c)
             of[c] = cell::valueAt(along, glm::vec3(placeInOctant(octant, c)));
         along = cell::coefficients(of);
     }

@@ -22,8 +22,15 @@ class PointSlopes {
  public:
     explicit PointSlopes(const Scene& scene);
 
+    // Of the cell whose octant was asked about last: most are asked about one after another.
+    struct OfOctants {
+        std::uint32_t cell = 0xffffffffu;
+        double unit = 0;  // a power of two, so that nothing depends on which octant was the first
+        std::array<glm::dvec3, 8> gradients{};
+    };
     // Of a cell's octant, or of all of it (kWholeCell), which is of this size.
-    CellSlopes in(std::uint32_t cell, unsigned octant, const glm::dvec3& size, double extent) const;
+    CellSlopes in(std::uint32_t cell, unsigned octant, const glm::dvec3& size, double extent,
+                  OfOctants& last) const;
     // At the corners of a cell of this size what f changes over it, along each axis.
     CellSlopes atCorners(const glm::uvec3& cell, const glm::dvec3& size, double extent) const;
     // And what values / extent change there, a unit of length.

@@ -56,11 +56,10 @@ class MeshCells {
         unsigned octants = 0;                 // that are seen, as of SeenOctants
     };
     // None where nothing is seen: a corner has no place, or none a value, or, where the clip box
-    // does not cut cells (TetClip), none a value within it. Half
-    // cells beyond the outermost points reach as far as half the way to the points before these,
-    // and nowhere where a grid comes round to where it began; on a globe those of the first and the
-    // last longitude meet. A layer of points is as thick as its
-    // points' cells.
+    // does not cut cells (TetClip), none a value within it. Half cells beyond the outermost points
+    // reach as far as half the way to the points before these, and nowhere where a grid comes round
+    // to where it began; on a globe those of the first and the last longitude meet. A layer of
+    // points is as thick as its points' cells.
     std::optional<Hexahedron> operator()(const glm::uvec3& cell) const;
     using Tetrahedron = render::Tetrahedron;
     // use(Tetrahedron) for those that fill what is seen of it, within the clip box; from an eye

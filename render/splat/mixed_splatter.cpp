@@ -8,6 +8,7 @@
 #include "render/splat/cell_kernels.h"
 #include "render/splat/drawn_points.h"
 #include "render/splat/mixed_list.h"
+#include "render/splat/open_tiles.h"
 #include "render/splat/seen_cells.h"
 #include "render/splat/tet_kernels.h"
 #include "render/splat/tile_bins.h"
@@ -49,9 +50,10 @@ struct Points {
 class Part {
  public:
     // `points`: the first of the list's is at `first` among them.
-    void look(const Scene& scene, const CellView& cells, const TileView& splats,
-              const timeseries::Columns& columns, const CellBatches& batches,
-              std::span<const CellOrPoint> passed, Points& points, std::size_t first);
+    void look(const Scene& scene, const CellView& cells, const TilePlane& plane,
+              const TileView& splats, const timeseries::Columns& columns,
+              const CellBatches& batches, std::span<const CellOrPoint> passed, Points& points,
+              std::size_t first);
     bool holds(std::size_t tile) const {
         return cellBins_.count(tile) + splatBins_.count(tile) > 0;
     }
@@ -60,8 +62,8 @@ class Part {
              TileRoom& splatRoom) const;
 
  private:
-    void lookAtCells(const Scene& scene, const CellView& view, const CellBatches& batches,
-                     std::span<const CellOrPoint> some);
+    void lookAtCells(const Scene& scene, const CellView& view, const TilePlane& plane,
+                     const CellBatches& batches, std::span<const CellOrPoint> some);
     void bin(const CellView& view, const Points& points, std::size_t first, std::size_t last);
 
     // Points, then cells, up to these among those that are seen.
@@ -79,22 +81,24 @@ class Part {
     std::vector<float> binnedTint_;
 };
 
-void Part::lookAtCells(const Scene& scene, const CellView& view, const CellBatches& batches,
-                       std::span<const CellOrPoint> some) {
+void Part::lookAtCells(const Scene& scene, const CellView& view, const TilePlane& plane,
+                       const CellBatches& batches, std::span<const CellOrPoint> some) {
     if (!scene.placed.isMesh())
         return batches.forEach(some, pieces_, [&] {
             seeCells(view, scene, batches.slopes(), pieces_, cells_, slopes_, cellSpans_);
             pieces_.count = 0;
         });
-    forEachTet(scene, some, &view.seen.rays.eye, [&](const ValuedTet& tet, const CellOfLayer& of) {
-        if (tets_.add(view, tet, of.layer, scene.layers[of.layer].style))
-            cellSpans_.push_back(spanOf(view, tets_.tets.back()));
-    });
+    forEachTet(scene, some, &view.seen.rays.eye, OpenTiles(view, plane),
+               [&](const ValuedTet& tet, const CellOfLayer& of) {
+                   if (tets_.add(view, tet, of.layer, scene.layers[of.layer].style))
+                       cellSpans_.push_back(spanOf(view, tets_.tets.back()));
+               });
 }
 
-void Part::look(const Scene& scene, const CellView& cells, const TileView& splats,
-                const timeseries::Columns& columns, const CellBatches& batches,
-                std::span<const CellOrPoint> passed, Points& points, std::size_t first) {
+void Part::look(const Scene& scene, const CellView& cells, const TilePlane& plane,
+                const TileView& splats, const timeseries::Columns& columns,
+                const CellBatches& batches, std::span<const CellOrPoint> passed, Points& points,
+                std::size_t first) {
     stretches_.clear();
     cells_.clear();
     slopes_.clear();
@@ -113,7 +117,7 @@ void Part::look(const Scene& scene, const CellView& cells, const TileView& splat
         }
         const std::size_t from = i;
         while (i < passed.size() && !isPoint(passed[i])) ++i;
-        lookAtCells(scene, cells, batches, passed.subspan(from, i - from));
+        lookAtCells(scene, cells, plane, batches, passed.subspan(from, i - from));
         stretches_.push_back({last, cellSpans_.size()});
     }
     if (scene.placed.isMesh()) {
@@ -242,7 +246,7 @@ void MixedSum::Work::sum(std::span<const CellOrPoint> some, bool lastOfAll) {
     points.take(firsts.back(), scene.placed.mesh());
     if (scene.placed.isMesh()) splats.meshSplats = points.list.seen;
     together(shared, [&](unsigned k) {
-        parts[k].look(scene, cells, splats, columns, batches,
+        parts[k].look(scene, cells, plane, splats, columns, batches,
                       some.subspan(beginOf(k), beginOf(k + 1) - beginOf(k)), points, firsts[k]);
     });
     const std::span<const Part> looked = std::span(parts).first(shared);

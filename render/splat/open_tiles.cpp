@@ -9,6 +9,7 @@ bool OpenTiles::isOpenIn(const WindowBox& box) const {
     const glm::dvec2 size(view_.box.size);
     const glm::dvec2 lo = box.lo - glm::dvec2(view_.box.at) - kMore;
     const glm::dvec2 hi = box.hi - glm::dvec2(view_.box.at) + kMore;
+    if (view_.count() == 0) return false;
     if (!(hi.x >= 0 && hi.y >= 0 && lo.x < size.x && lo.y < size.y)) return false;
     const auto tileOf = [&](const glm::dvec2& at) {
         return glm::ivec2(glm::clamp(at, glm::dvec2(0), size - 1.0)) / view_.tile;

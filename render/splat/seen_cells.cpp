@@ -377,6 +377,7 @@ void seeCells(const CellView& view, const Scene& scene, const PointSlopes* point
     cells.resize(seen + pieces.count);
     const SeenCell* const end = HWY_DYNAMIC_DISPATCH(FindCells)(
         view, scene.opacityPer == OpacityPer::Crossing, pieces, rows, cells.data() + seen);
+    PointSlopes::OfOctants ofOctants;
     for (std::size_t i = 0; i < pieces.count; ++i) {
         if (rows.isSeen[i] == 0) continue;
         spans.push_back({static_cast<std::uint32_t>(rows.tileY[i] * view.tiles.x + rows.tileX[i]),
@@ -392,7 +393,8 @@ void seeCells(const CellView& view, const Scene& scene, const PointSlopes* point
             const auto axis = static_cast<std::size_t>(a);
             size[a] = pieces.to[axis][i] - pieces.from[axis][i];
         }
-        slopes.push_back(points->in(pieces.cell[i], pieces.octant[i], size, rows.extent[i]));
+        slopes.push_back(
+            points->in(pieces.cell[i], pieces.octant[i], size, rows.extent[i], ofOctants));
     }
     cells.resize(static_cast<std::size_t>(end - cells.data()));
 }

@@ -81,6 +81,7 @@ class SolidTets {
     struct Drawn {
         Tetrahedron tet;
         unsigned seen;
+        bool mayBeSeen = false;
         double away = 0;
     };
     // pass(part) for each of a cell's before what it hides, as FaceOrder has cells
@@ -258,10 +259,14 @@ void SolidTets::forEachTet(std::uint32_t cell, const glm::dvec3* eye, const MayB
     cells_.forEachTet(cell, [&](const std::array<std::uint32_t, 4>& points) {
         Drawn part{};
         part.seen = take(points, part.tet);
-        if (part.seen == 0 || !mayBeSeen(part.tet.at)) return;
+        if (part.seen == 0) return;
+        part.mayBeSeen = mayBeSeen(part.tet.at);
         parts.push_back(part);
     });
+    if (std::ranges::none_of(parts, &Drawn::mayBeSeen)) return;
+    // All are put in order, so that what is seen of some does not depend on what is of others.
     const auto pass = [&](const Drawn& part) {
+        if (!part.mayBeSeen) return;
         if (!cut_.cuts()) return forEachSeen(part.tet, part.seen, eye, use);
         forEachSeen(part.tet, part.seen, eye, [&](const Tetrahedron& tet) { cut_(tet, eye, use); });
     };

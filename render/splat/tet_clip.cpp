@@ -58,7 +58,33 @@ void add(const std::array<Corner, 4>& corners, double turn, std::vector<Tetrahed
     into.push_back(tet);
 }
 
-void cutBy(const Half& half, const Tetrahedron& tet, double turn, std::vector<Tetrahedron>& into) {
+// Between two triangles, whose corners face each other: three parts, of which the second shares a
+// face with each of the others.
+void addWedge(const std::array<Corner, 3>& p, const std::array<Corner, 3>& q, double turn,
+              const glm::dvec3* eye, std::vector<Tetrahedron>& into) {
+    const std::array<std::array<Corner, 4>, 3> parts{std::array{p[0], p[1], p[2], q[0]},
+                                                     std::array{p[1], p[2], q[0], q[1]},
+                                                     std::array{p[2], q[0], q[1], q[2]}};
+    // Whether the eye is on this side of the others' face.
+    const auto isBeside = [&](const Corner& on, const Corner& a, const Corner& b, const Corner& c) {
+        const double side = turnOf({on.at, a.at, b.at, c.at});
+        return eye == nullptr || turnOf({*eye, a.at, b.at, c.at}) * side > 0;
+    };
+    const bool firstIsInFront = isBeside(p[0], p[1], p[2], q[0]);
+    const bool lastIsBehind = isBeside(p[1], p[2], q[0], q[1]);
+    if (firstIsInFront) add(parts[0], turn, into);
+    if (lastIsBehind) {
+        add(parts[1], turn, into);
+        if (!firstIsInFront) add(parts[0], turn, into);
+        return add(parts[2], turn, into);
+    }
+    add(parts[2], turn, into);
+    add(parts[1], turn, into);
+    if (!firstIsInFront) add(parts[0], turn, into);
+}
+
+void cutBy(const Half& half, const Tetrahedron& tet, double turn, const glm::dvec3* eye,
+           std::vector<Tetrahedron>& into) {
     std::array<Corner, 4> in, out;
     std::size_t ins = 0, outs = 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -66,16 +92,13 @@ void cutBy(const Half& half, const Tetrahedron& tet, double turn, std::vector<Te
         (half.within(corner.at) >= 0 ? in[ins++] : out[outs++]) = corner;
     }
     const auto leaves = [&](std::size_t i, std::size_t o) { return half.leaves(in[i], out[o]); };
-    // Between two triangles, whose corners face each other.
-    const auto addWedge = [&](const std::array<Corner, 3>& p, const std::array<Corner, 3>& q) {
-        add({p[0], p[1], p[2], q[0]}, turn, into);
-        add({p[1], p[2], q[0], q[1]}, turn, into);
-        add({p[2], q[0], q[1], q[2]}, turn, into);
-    };
     if (ins == 4) into.push_back(tet);
-    if (ins == 3) addWedge({in[0], in[1], in[2]}, {leaves(0, 0), leaves(1, 0), leaves(2, 0)});
+    if (ins == 3)
+        addWedge({in[0], in[1], in[2]}, {leaves(0, 0), leaves(1, 0), leaves(2, 0)}, turn, eye,
+                 into);
     if (ins == 2)
-        addWedge({in[0], leaves(0, 0), leaves(0, 1)}, {in[1], leaves(1, 0), leaves(1, 1)});
+        addWedge({in[0], leaves(0, 0), leaves(0, 1)}, {in[1], leaves(1, 0), leaves(1, 1)}, turn,
+                 eye, into);
     if (ins == 1) add({in[0], leaves(0, 0), leaves(0, 1), leaves(0, 2)}, turn, into);
 }
 
@@ -90,8 +113,12 @@ TetClip::TetClip(const PlacedPoints& placed, const IndexBox& clip)
     for (int a = 0; a < 3; ++a) {
         lo_[a] = std::min(from[a], to[a]);
         hi_[a] = std::max(from[a], to[a]);
-        if (lo_[a] <= all.lo[a]) lo_[a] = -kInfinity;
-        if (hi_[a] >= all.hi[a]) hi_[a] = kInfinity;
+        cuts_ = cuts_ && lo_[a] < hi_[a];
+        const bool holdsFirst = lo_[a] <= all.lo[a], holdsLast = hi_[a] >= all.hi[a];
+        // The cell across where coordinates begin anew lies beyond both.
+        if (placed.period()[a] > 0 && !(holdsFirst && holdsLast)) continue;
+        if (holdsFirst) lo_[a] = -kInfinity;
+        if (holdsLast) hi_[a] = kInfinity;
     }
 }
 
@@ -116,14 +143,9 @@ const std::vector<Tetrahedron>& TetClip::cut(const Tetrahedron& tet, const glm::
     for (int a = 0; a < 3; ++a)
         for (const Half& half : {Half{a, 1, lo_[a]}, Half{a, -1, hi_[a]}}) {
             left.clear();
-            for (const Tetrahedron& part : parts) cutBy(half, part, turn, left);
+            for (const Tetrahedron& part : parts) cutBy(half, part, turn, eye, left);
             parts.swap(left);
         }
-    if (eye)
-        std::ranges::stable_sort(parts, {}, [&](const Tetrahedron& part) {
-            const auto& at = part.at;
-            return glm::distance(*eye, 0.25 * (at[0] + at[1] + at[2] + at[3]));
-        });
     return parts;
 }
 

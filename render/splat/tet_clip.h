@@ -14,7 +14,7 @@ namespace render {
 struct Tetrahedron {
     std::array<glm::dvec3, 4> at;  // in axis coordinates
     std::array<double, 4> values;
-    // Of the cell's, those that corners are or are nearest to.
+    // Of the cell's, those that corners are, or are cut from or nearest to.
     std::array<unsigned, 4> corners;
     std::array<glm::dvec3, 4> gradients;  // as MeshGradients has them, if there are some
 };
@@ -23,11 +23,12 @@ class TetClip {
  public:
     TetClip(const PlacedPoints& placed, const IndexBox& clip);
     // Whether that is how the box clips this mesh; else by its points, each with what is nearest to
-    // it: a globe's coordinates are not those of space. A face of the box that no point is beyond
+    // it: of a globe, whose coordinates are not those of space, and where the box is a plane, which
+    // holds points, but nothing of a cell. A face of the box that no point is beyond
     // leaves half cells around the outermost ones, as without a box.
     bool cuts() const { return cuts_; }
-    // use(Tetrahedron) for what is left of one, turned as it is; from an eye that is given, the
-    // nearest first. REQUIRES: cuts().
+    // use(Tetrahedron) for what is left of one, turned as it is; from an eye that is given, each
+    // part before what it hides. REQUIRES: cuts().
     template <typename Use>
     void operator()(const Tetrahedron& tet, const glm::dvec3* eye, const Use& use) const;
 

@@ -50,8 +50,8 @@ ReachBox::ReachBox(const PointsView& view, const glm::dvec3& reach) : view_(view
 WindowBox ReachBox::operator()(const glm::dvec3& place) const {
     const glm::dvec3 seen(view_.viewFromAxes * glm::dvec4(place, 1.0));
     const double nearest = -seen.z - reach_.z, farthest = -seen.z + reach_.z;
-    if (!(farthest > view_.rays.near)) return kNothing;
-    if (!(nearest > view_.rays.near)) return kEverything;
+    if (farthest <= view_.rays.near) return kNothing;
+    if (!(nearest > view_.rays.near)) return kEverything;  // also where the reach is infinite
     WindowBox box{};
     for (int a = 0; a < 2; ++a) {
         const double lo = seen[a] - reach_[a], hi = seen[a] + reach_[a];

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -36,6 +37,19 @@ TEST(MeshLayer, IsAsThickWhereItCloses) {
             }
         }
     EXPECT_GT(thickness, 0);
+}
+
+// Nobody knows how far its cells reach, from which nothing may follow: not from any side.
+TEST(MeshLayer, IsSeenFromEverySide) {
+    const auto grid = tests::curvilinear(
+        {9, 8, 1}, [](double i, double j, double) { return glm::dvec3(i, j, 0); });
+    const tests::CellWorld world(tests::stepOf(grid, [](std::size_t i) { return double(i % 9); }),
+                                 {"0:40"}, 0.5);
+    for (const glm::dvec3& from : {glm::dvec3(0, -3, 1), glm::dvec3(1e-4, -3, 1),
+                                   glm::dvec3(-3, 0, 1), glm::dvec3(0, -3, 0.5)}) {
+        const auto w = tests::drawn(world.scene, tests::lookFrom(from, {40, 30}));
+        EXPECT_GT(std::ranges::count_if(w, [](float v) { return v > 0; }), 50) << from.x;
+    }
 }
 
 }  // namespace

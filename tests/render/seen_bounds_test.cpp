@@ -75,7 +75,7 @@ TEST(SeenBounds, OfWhatIsBehindAreNone) {
     EXPECT_GT(bounds.lo().x, bounds.hi().x);
 }
 
-// A cell as wide as its depth, the far half in front: four corners, and where four edges leave.
+// Of an edge along the view axis, from where it comes through the plane on.
 TEST(SeenBounds, EndWhereEdgesPassTheNearPlane) {
     SeenBounds bounds(raysOf(0.5));
     bounds.take({1, 2, -1}, {1, 2, 1});

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/vector_relational.hpp>
 #include <random>
 #include <set>
@@ -16,6 +17,7 @@
 #include "render/splat/cell_pieces.h"
 #include "tests/support/cell_rays.h"
 #include "tests/support/lon_lat_belt.h"
+#include "tests/support/meshes.h"
 #include "tests/support/unstructured.h"
 #include "timeseries/grid/raised.h"
 #include "timeseries/readers/cf/cf_triangles.h"
@@ -308,6 +310,48 @@ TEST(SolidTets, ARangeOfALinearFieldIsASlab) {
                                                       << " of " << grid->mesh()->solids()->count();
             }
         }
+}
+
+std::vector<std::shared_ptr<const Grid>> allGrids() {
+    auto grids = bentGrids();
+    grids.push_back(tests::curvilinear(
+        {5, 4, 6}, [](double i, double j, double k) { return tests::bent(i, j, k); }));
+    return grids;
+}
+
+// Also where tiles close, behind which nothing is looked at any more: when that is known depends on
+// slices.
+TEST(SolidTets, PicturesAreTheSameForAnyThreadsAndSlices) {
+    for (const auto& grid : allGrids()) {
+        CellWorld world(tests::noise(grid), {"0:1"}, 1 - 1e-9);
+        world.scene.layers[0].style.color = ByValue{{}, 0, 1};
+        world.scene.order = Order::BackToFront;
+        for (const glm::dvec3& from : kFrom) {
+            const View view = tests::lookFrom(from, {150, 20}, 0.03);
+            const auto once = drawn(world.scene, view, Channels::Over, 0, 1);
+            std::size_t opaque = 0;
+            for (std::size_t i = 3; i < once.size(); i += 4) opaque += once[i] == 1;
+            EXPECT_GT(opaque, 2000u) << "or no tile closes";
+            EXPECT_EQ(once, drawn(world.scene, view, Channels::Over, 0, 5));
+            EXPECT_EQ(once, drawn(world.scene, view, Channels::Over, 0, 3, 1));
+            EXPECT_EQ(once, drawn(world.scene, view, Channels::Over, 0, 2, 7));
+        }
+    }
+}
+
+TEST(SolidTets, AnEyeThatLooksPastThemSeesNothing) {
+    for (const auto& grid : allGrids()) {
+        CellWorld world(tests::noise(grid), {"0:1"}, 0.5);
+        for (const Order order : {Order::None, Order::BackToFront})
+            for (const glm::dvec3& to : {glm::dvec3(0, -9, 0), glm::dvec3(9, -3, 0),
+                                         glm::dvec3(0, -3, 9), glm::dvec3(0.7, -2.9, 40)}) {
+                world.scene.order = order;
+                View view = tests::lookFrom({0, -3, 0}, {40, 30}, 0.1);
+                view.viewFromWorld = glm::lookAt(glm::dvec3(0, -3, 0), to, glm::dvec3(0.1, 0.2, 1));
+                const auto channels = order == Order::None ? Channels::Weight : Channels::Over;
+                for (const float v : drawn(world.scene, view, channels)) ASSERT_EQ(v, 0);
+            }
+    }
 }
 
 // Of any field the picture, its rays one by one and the truth by many rays a pixel are the same, to

@@ -139,40 +139,67 @@ TEST(TetClip, PartsAreAllOfATetrahedron) {
     EXPECT_GT(crossed, 100);
 }
 
-// So do those in a corner of the box, whose parts come the nearest first.
-TEST(TetClip, PartsInABoxAreCutBySixPlanesAndComeInOrder) {
+// Where a line from a place is within a tetrahedron: [first, second] of it.
+std::pair<double, double> inside(const Tetrahedron& tet, const glm::dvec3& eye,
+                                 const glm::dvec3& along) {
+    const auto slopes = tet::slopesOf(tet.at);
+    double from = 0, to = 1e9;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double share = (i == 0 ? 1 : 0) + glm::dot(slopes[i], eye - tet.at[0]);
+        const double change = glm::dot(slopes[i], along);
+        if (change > 0) from = std::max(from, -share / change);
+        if (change < 0) to = std::min(to, -share / change);
+        if (change == 0 && share < 0) return {1, 0};
+    }
+    return {from, to};
+}
+
+// By all six planes of a box: rays meet parts one after another, and between them all that lies in
+// the tetrahedron and the box.
+TEST(TetClip, PartsInABoxComeAsRaysMeetThem) {
     const CellWorld world(stepOfPlaces(bentGrids().back(), [](const auto& p) { return p.x; }),
                           {"0:4"});
     const PlacedPoints::Box box = inAxes(world, {1, 1, 1.5}, {3, 2, 3.5});
     const TetClip clip(world.placed, boxOf({1, 1, 1.5}, {3, 2, 3.5}));
-    const glm::dvec3 eye(2, 1, -3);
     std::mt19937 random(8);
     std::uniform_real_distribution<double> any(0, 1);
-    for (int n = 0; n < 200; ++n) {
+    int passed = 0;
+    for (int n = 0; n < 300; ++n) {
         const Tetrahedron tet = anyTet(random);
-        double volume = 0, before = 0;
-        clip(tet, &eye, [&](const Tetrahedron& part) {
-            volume += std::abs(turnOf(part.at)) / 6;
-            const double away =
-                glm::distance(eye, 0.25 * (part.at[0] + part.at[1] + part.at[2] + part.at[3]));
-            EXPECT_GE(away, before);
-            before = away;
-        });
-        // By chance: of places in the box those that are in the tetrahedron.
-        constexpr int kPlaces = 20'000;
-        const glm::dmat3 edges(tet.at[1] - tet.at[0], tet.at[2] - tet.at[0], tet.at[3] - tet.at[0]);
-        const glm::dmat3 shares = glm::inverse(edges);
-        int in = 0;
-        for (int k = 0; k < kPlaces; ++k) {
-            const glm::dvec3 place =
+        const glm::dvec3 eye = glm::dvec3(2, 1, -3) * (n % 2 ? 1.0 : 0.1);
+        std::vector<Tetrahedron> parts;
+        clip(tet, &eye, [&](const Tetrahedron& part) { parts.push_back(part); });
+        for (int k = 0; k < 40; ++k) {
+            const glm::dvec3 to =
                 glm::mix(box.lo, box.hi, glm::dvec3(any(random), any(random), any(random)));
-            const glm::dvec3 b = shares * (place - tet.at[0]);
-            in += b.x >= 0 && b.y >= 0 && b.z >= 0 && b.x + b.y + b.z <= 1 ? 1 : 0;
+            const glm::dvec3 along = glm::normalize(to - eye);
+            double before = 0, sum = 0;
+            for (const Tetrahedron& part : parts) {
+                const auto [from, until] = inside(part, eye, along);
+                if (until - from < 1e-9) continue;
+                ASSERT_GE(from, before - 1e-9);
+                before = until;
+                sum += until - from;
+                ++passed;
+            }
+            auto [from, until] = inside(tet, eye, along);
+            for (int a = 0; a < 3; ++a) {
+                const double one = (box.lo[a] - eye[a]) / along[a];
+                const double other = (box.hi[a] - eye[a]) / along[a];
+                from = std::max(from, std::min(one, other));
+                until = std::min(until, std::max(one, other));
+            }
+            ASSERT_NEAR(sum, std::max(until - from, 0.0), 1e-6);
         }
-        const glm::dvec3 sides = box.hi - box.lo;
-        const double all = sides.x * sides.y * sides.z;
-        EXPECT_NEAR(volume / all, double(in) / kPlaces, 0.02);
     }
+    EXPECT_GT(passed, 5000);
+}
+
+// A box that is a plane holds points alone, with what is nearest to them.
+TEST(TetClip, PlanesAreByPoints) {
+    const auto grid = bentGrids().front();
+    EXPECT_FALSE(TetClip(PlacedPoints(*grid), boxOf({0, 0, 2}, {4, 3, 2})).cuts());
+    EXPECT_TRUE(TetClip(PlacedPoints(*grid), boxOf({0, 0, 2}, {4, 3, 2.1})).cuts());
 }
 
 // A face of the box that no point is beyond cuts nothing of the half cells around the outermost.
