@@ -17,8 +17,14 @@ std::string clipFlaw(const ClipBox& clip, const timeseries::Grid& grid) {
         const bool isMet = grid.mesh()
                                ? clip.lo[a] <= most && least <= clip.hi[a]
                                : grid.placesWithin(along, clip.lo[a], clip.hi[a]).has_value();
-        if (isMet) continue;
         const timeseries::Axis& axis = grid.axes()[along];
+        if (grid.mesh() && clip.lo[a] == clip.hi[a] && least < most)
+            return fmt::format(
+                "clip '{}' is a plane, and the points of this grid lie in none: give a range of "
+                "{}, "
+                "from:to",
+                clipText(clip), axis.name);
+        if (isMet) continue;
         return fmt::format(
             "clip '{}' holds no point: {}, from {:.7g} to {:.7g}{}{}, has none from {} to {}",
             clipText(clip), axis.name, least, most, axis.units.empty() ? "" : " ", axis.units,

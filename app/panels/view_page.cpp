@@ -124,7 +124,9 @@ void ViewPage::clip(PanelContext& context, Form& form) {
             clip_[place].refuse(error.what());
         }
     }
-    form.note("From : to, or one value for a slice. Only what lies between is drawn.");
+    form.note(grid.mesh()
+                  ? "From : to. Only what lies between is drawn."
+                  : "From : to, or one value for a slice. Only what lies between is drawn.");
 }
 
 void ViewPage::scale(PanelContext& context, Form& form) {

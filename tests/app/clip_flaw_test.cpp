@@ -48,6 +48,19 @@ TEST(ClipFlaw, OfAMeshIsOnlyBesideIt) {
     EXPECT_THAT(flawOf("min:max,min:max,-2:-1"), HasSubstr("z, from 0 to 2"));
 }
 
+// Cells have nothing in a plane; a mesh that is flat lies in one.
+TEST(ClipFlaw, OfAMeshIsToBeAPlane) {
+    const auto meshOf = [](double thick) {
+        return tests::curvilinear({4, 3, 3}, [=](double i, double j, double k) {
+            return glm::dvec3(i + j, 2 * j, thick * k);
+        });
+    };
+    EXPECT_THAT(
+        clipFlaw(parseClip("min:max,2,min:max"), *meshOf(1)),
+        HasSubstr("is a plane, and the points of this grid lie in none: give a range of y"));
+    EXPECT_EQ(clipFlaw(parseClip("min:max,min:max,0:0"), *meshOf(0)), "");
+}
+
 // It is in the box of another step, and has points where it is.
 TEST(ClipFlaw, OfAMeshThatMovesIsBesideItsPlace) {
     const auto at = [](double x) {

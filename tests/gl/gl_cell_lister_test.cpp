@@ -54,6 +54,7 @@ class GlCellListing : public tests::GlCellPlanes {
     }
     static void see(const Scene& scene, std::size_t layer, std::uint32_t number, Pieces& all) {
         const PointSlopes points(scene);
+        PointSlopes::OfOctants last;
         const RangeStyle& style = scene.layers[layer].style;
         forEachPiece(scene, number, [&](ValuedCell piece, unsigned octant) {
             for (const auto& range : scene.layers[layer].cells.ranges) {
@@ -74,7 +75,8 @@ class GlCellListing : public tests::GlCellPlanes {
                 std::ranges::copy(s.f, c.f);
                 all.cells.push_back(c);
                 if (scene.light == Light::Off) continue;
-                all.slopes.push_back(points.in(number, octant, piece.to - piece.from, s.extent));
+                all.slopes.push_back(
+                    points.in(number, octant, piece.to - piece.from, s.extent, last));
             }
         });
     }
