@@ -50,15 +50,15 @@ TEST(ClipFlaw, OfAMeshIsOnlyBesideIt) {
 
 // Cells have nothing in a plane; a mesh that is flat lies in one.
 TEST(ClipFlaw, OfAMeshIsToBeAPlane) {
-    const auto meshOf = [](double thick) {
-        return tests::curvilinear({4, 3, 3}, [=](double i, double j, double k) {
-            return glm::dvec3(i + j, 2 * j, thick * k);
+    const auto meshOf = [](std::size_t layers) {
+        return tests::curvilinear({4, 3, layers}, [](double i, double j, double k) {
+            return glm::dvec3(i + j, 2 * j, k);
         });
     };
     EXPECT_THAT(
-        clipFlaw(parseClip("min:max,2,min:max"), *meshOf(1)),
+        clipFlaw(parseClip("min:max,2,min:max"), *meshOf(3)),
         HasSubstr("is a plane, and the points of this grid lie in none: give a range of y"));
-    EXPECT_EQ(clipFlaw(parseClip("min:max,min:max,0:0"), *meshOf(0)), "");
+    EXPECT_EQ(clipFlaw(parseClip("min:max,min:max,0:0"), *meshOf(1)), "");
 }
 
 // It is in the box of another step, and has points where it is.
