@@ -17,7 +17,7 @@ constexpr std::uint64_t kAllSplats = std::numeric_limits<std::uint64_t>::max();
 
 constexpr double kMostAtOnce = 1e18;
 // Of what one call draws, the first is so small a part: nothing is known of what it takes.
-constexpr double kFirstSlices = 32;
+constexpr double kFirstSlices = 16;
 
 // For a look at the clock every 12 ms: tiles are taken up and put down between two.
 double nextSlice(double drawn, std::chrono::duration<double, std::milli> took) {
