@@ -20,9 +20,8 @@ std::string clipFlaw(const ClipBox& clip, const timeseries::Grid& grid) {
         const timeseries::Axis& axis = grid.axes()[along];
         if (grid.mesh() && clip.lo[a] == clip.hi[a] && least < most)
             return fmt::format(
-                "clip '{}' is a plane, and the points of this grid lie in none: give a range of "
-                "{}, "
-                "from:to",
+                "clip '{}' is a plane along {}, and the points of this grid lie in no plane: give "
+                "a range, from:to",
                 clipText(clip), axis.name);
         if (isMet) continue;
         return fmt::format(

@@ -215,14 +215,12 @@ std::optional<ClipBox> withClipSide(const std::optional<ClipBox>& clip,
     double &nowLo = box.lo[static_cast<int>(axis)], &nowHi = box.hi[static_cast<int>(axis)];
     auto [lo, hi] = typedSide(text);
     const auto [least, most] = grid.ends(axis);
-    if (lo == hi && std::isfinite(lo) && grid.mesh()) {
-        throw ChoiceError(fmt::format(
-            "clip '{}': the points of this grid lie in no plane: give a range, from:to", text));
-    } else if (lo == hi && std::isfinite(lo)) {
+    if (lo == hi && std::isfinite(lo)) {
         // What reads as an end of the axis may lie beyond it.
         const std::string typed = sideText(lo, digits);
         const auto readsAs = [&](double end) { return sideText(end, digits) == typed; };
-        if ((least <= lo && lo <= most) || readsAs(least) || readsAs(most))
+        const bool isWithin = (least <= lo && lo <= most) || readsAs(least) || readsAs(most);
+        if (isWithin && !grid.mesh())  // whose points lie in none, which is told below
             lo = hi = grid.nearestPlane(axis, lo);
     } else {
         const auto [shownLo, shownHi] = sideOf(clip, grid, axis);

@@ -15,7 +15,7 @@ namespace {
 constexpr double kAll = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kAllSplats = std::numeric_limits<std::uint64_t>::max();
 
-constexpr double kMostAtOnce = 1e18;
+constexpr double kMostAtOnce = 1e18;  // what a number of splats may be
 // Of what one call draws, the first is so small a part: nothing is known of what it takes.
 constexpr double kFirstSlices = 16;
 
@@ -237,8 +237,8 @@ bool FrameRenderer::drawSplats(EyeInWork& work, double cost, Clock::time_point e
                 work.frame.splats->begin(work.planes, channels[work.plane], work.plane, targets);
         const double each = work.splatCosts[work.plane];
         while (!work.sum->done() && work.cost < until) {
-            const Clock::time_point begin = looksAtClock ? Clock::now() : Clock::time_point{};
-            if (looksAtClock && begin >= end) return false;
+            const Clock::time_point begin = Clock::now();
+            if (begin >= end) return false;
             const double some = std::min(until - work.cost, work.slice);
             const double splats = std::min(std::ceil(some / each), kMostAtOnce);
             const double added =

@@ -23,15 +23,17 @@ class SeenBounds {
 
     // An edge, or any line between two of its places, in view space.
     void take(const glm::dvec3& a, const glm::dvec3& b) {
-        const bool isA = -a.z > near_, isB = -b.z > near_;
-        if (isA) takePlace(a, -a.z);
-        if (isB) takePlace(b, -b.z);
-        if (isA != isB) takePlace(glm::mix(a, b, (near_ + a.z) / (a.z - b.z)), near_);
+        takePlace(a);
+        takePlace(b);
+        takePassage(a, b);
     }
     // All that lies between places.
     void takeHull(std::span<const glm::dvec3> places) {
+        const auto inFront = std::ranges::count_if(places, [&](auto& p) { return isInFront(p); });
+        for (const glm::dvec3& place : places) takePlace(place);
+        if (static_cast<std::size_t>(inFront) == places.size()) return;
         for (std::size_t i = 0; i < places.size(); ++i)
-            for (std::size_t k = 0; k < i; ++k) take(places[i], places[k]);
+            for (std::size_t k = 0; k < i; ++k) takePassage(places[i], places[k]);
     }
 
     // Pixels to the right and up of the view axis, a little more than arithmetic loses, that in
@@ -42,10 +44,18 @@ class SeenBounds {
  private:
     static constexpr double kFar = std::numeric_limits<double>::max();
 
-    void takePlace(const glm::dvec3& place, double depth) {
-        const glm::dvec2 offset = focal_ * glm::dvec2(place) / depth;
-        lo_ = glm::min(lo_, offset);
-        hi_ = glm::max(hi_, offset);
+    bool isInFront(const glm::dvec3& place) const { return -place.z > near_; }
+    void takePlace(const glm::dvec3& place) {
+        if (isInFront(place)) takeOffset(glm::dvec2(place) / -place.z);
+    }
+    // Where a line passes the near plane, if it does.
+    void takePassage(const glm::dvec3& a, const glm::dvec3& b) {
+        if (isInFront(a) == isInFront(b)) return;
+        takeOffset(glm::dvec2(glm::mix(a, b, (near_ + a.z) / (a.z - b.z))) / near_);
+    }
+    void takeOffset(const glm::dvec2& slope) {
+        lo_ = glm::min(lo_, focal_ * slope);
+        hi_ = glm::max(hi_, focal_ * slope);
     }
     glm::dvec2 more() const {
         if (lo_.x > hi_.x) return glm::dvec2(0);

@@ -6,6 +6,7 @@
 //
 #include <hwy/highway.h>
 //
+#include "render/splat/cell_outline-inl.h"
 #include "render/splat/lanes-inl.h"
 
 #ifndef RENDER_SEEN_CELLS_ROWS
@@ -181,39 +182,16 @@ struct SeenLanes {
 
     // Which pixels the corners of each lie between.
     HWY_INLINE void takePixels() const {
-        constexpr float kMore = 0.01f;  // than arithmetic loses
         constexpr float kAll = 1e9f;
-        const F depth = hn::Neg(joined(seen[2]));
         const auto isWhole = hn::Gt(joined(whole), hn::Zero(Floats()));
         const auto isVisible = hn::Gt(joined(visible), hn::Zero(Floats()));
-        put(hn::IfThenElseZero(isWhole, depth), rows.field[seen_cell::kBase], at);
-        F centre[2], place[2], half[3][3], least[2], most[2];
-        for (int k = 0; k < 2; ++k) {
-            place[k] = joined(seen[k]);
-            centre[k] = hn::Div(place[k], depth);
-            least[k] = f(kAll);
-            most[k] = f(-kAll);
+        F middle[3], half[3][3];
+        for (int k = 0; k < 3; ++k) {
+            middle[k] = joined(seen[k]);
+            for (int a = 0; a < 3; ++a) half[a][k] = joined(edge[a][k]);
         }
-        for (int a = 0; a < 3; ++a)
-            for (int k = 0; k < 3; ++k) half[a][k] = joined(edge[a][k]);
-        const auto moved = [&](F v, const F& by, unsigned up)
-                               HWY_ATTR { return up ? hn::Add(v, by) : hn::Sub(v, by); };
-        F corners[8][3];
-        for (unsigned c = 0; c < 8; ++c) {
-            F(&v)[3] = corners[c];
-            for (int k = 0; k < 2; ++k) v[k] = place[k];
-            v[2] = hn::Neg(depth);
-            for (unsigned a = 0; a < 3; ++a)
-                for (int k = 0; k < 3; ++k) v[k] = moved(v[k], half[a][k], c >> a & 1);
-            const F per = hn::Neg(reciprocal(Floats(), v[2]));
-            for (int k = 0; k < 2; ++k) {
-                const F offset = hn::MulSub(v[k], per, centre[k]);
-                least[k] = hn::Min(least[k], offset);
-                most[k] = hn::Max(most[k], offset);
-            }
-        }
-        F more[2] = {f(kMore), f(kMore)};
-        if (!hn::AllTrue(Floats(), isWhole)) takeBeside(corners, isWhole, least, most, more);
+        put(hn::IfThenElseZero(isWhole, hn::Neg(middle[2])), rows.field[seen_cell::kBase], at);
+        const CellOutline outline(view, middle, half, isWhole);
         F first[2], last[2];
         for (int k = 0; k < 2; ++k) {
             const F part = joined(windowPart[k]), from = joined(windowWhole[k]);
@@ -222,7 +200,9 @@ struct SeenLanes {
                 const F begins = hn::Add(hn::MulAdd(offset, focal, part), hn::Sub(by, f(0.5f)));
                 return hn::Ceil(hn::Min(hn::Max(begins, f(-kAll)), f(kAll)));
             };
-            const F low = reach(least[k], hn::Neg(more[k])), high = reach(most[k], more[k]);
+            const F more = outline.more[k];
+            const F low = reach(outline.least[k], hn::Neg(more));
+            const F high = reach(outline.most[k], more);
             // Whole numbers of floats: what lies in the picture is below 2^24.
             const F limit = f(static_cast<float>(view.box.size[k])), zero = hn::Zero(Floats());
             first[k] = hn::Min(hn::Max(hn::Add(from, low), zero), limit);
@@ -245,45 +225,6 @@ struct SeenLanes {
         const I lastLine = hn::ConvertTo(Ints(), hn::Sub(lines, f(1)));
         putInts(hn::Or(lastColumn, hn::ShiftLeft<16>(lastLine)), seen_cell::kLastPixels);
         takeFlags(grazing(columns, lines));
-    }
-    // As SeenBounds, of those that the eye is beside or within, in units of the focal length;
-    // `more` in pixels.
-    HWY_INLINE void takeBeside(const F (&corners)[8][3], hn::Mask<Floats> isWhole, F* least,
-                               F* most, F* more) const {
-        constexpr float kFar = 1e9f, kOfFloats = 1e-5f;
-        const F near = f(view.near);
-        F lo[2] = {f(kFar), f(kFar)}, hi[2] = {f(-kFar), f(-kFar)};
-        const auto take = [&](const F* v, F depth, hn::Mask<Floats> is) HWY_ATTR {
-            for (int k = 0; k < 2; ++k) {
-                const F offset = hn::Div(v[k], depth);
-                lo[k] = hn::IfThenElse(is, hn::Min(lo[k], offset), lo[k]);
-                hi[k] = hn::IfThenElse(is, hn::Max(hi[k], offset), hi[k]);
-            }
-        };
-        for (unsigned c = 0; c < 8; ++c) {
-            const F depth = hn::Neg(corners[c][2]);
-            const auto isFront = hn::Gt(depth, near);
-            take(corners[c], depth, isFront);
-            for (unsigned a = 0; a < 3; ++a) {
-                const unsigned other = c | 1u << a;
-                if (other == c) continue;
-                const auto passes = hn::Xor(isFront, hn::Gt(hn::Neg(corners[other][2]), near));
-                const F share = hn::Div(hn::Add(near, corners[c][2]),
-                                        hn::Sub(corners[c][2], corners[other][2]));
-                F v[2];
-                for (int k = 0; k < 2; ++k)
-                    v[k] =
-                        hn::MulAdd(share, hn::Sub(corners[other][k], corners[c][k]), corners[c][k]);
-                take(v, near, passes);
-            }
-        }
-        for (int k = 0; k < 2; ++k) {
-            const F focal = f(static_cast<float>(view.focal[static_cast<std::size_t>(k)]));
-            const F far = hn::Mul(focal, hn::Max(hn::Abs(lo[k]), hn::Abs(hi[k])));
-            least[k] = hn::IfThenElse(isWhole, least[k], lo[k]);
-            most[k] = hn::IfThenElse(isWhole, most[k], hi[k]);
-            more[k] = hn::IfThenElse(isWhole, more[k], hn::MulAdd(f(kOfFloats), far, more[k]));
-        }
     }
     HWY_INLINE void putInts(I v, std::size_t field) const {
         put(hn::BitCast(Floats(), v), rows.field[field], at);

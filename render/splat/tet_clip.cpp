@@ -41,21 +41,16 @@ struct Half {
 };
 
 // Adds one that is turned as another.
-void add(const std::array<Corner, 4>& corners, double turn, std::vector<Tetrahedron>& into) {
-    Tetrahedron tet{};
+void add(std::array<Corner, 4> corners, double turn, std::vector<Tetrahedron>& into) {
+    if (turnOf({corners[0].at, corners[1].at, corners[2].at, corners[3].at}) * turn < 0)
+        std::swap(corners[2], corners[3]);
+    Tetrahedron& tet = into.emplace_back();
     for (std::size_t i = 0; i < 4; ++i) {
         tet.at[i] = corners[i].at;
         tet.values[i] = corners[i].value;
         tet.corners[i] = corners[i].corner;
         tet.gradients[i] = corners[i].gradient;
     }
-    if (turnOf(tet.at) * turn < 0) {
-        std::swap(tet.at[2], tet.at[3]);
-        std::swap(tet.values[2], tet.values[3]);
-        std::swap(tet.corners[2], tet.corners[3]);
-        std::swap(tet.gradients[2], tet.gradients[3]);
-    }
-    into.push_back(tet);
 }
 
 // Between two triangles, whose corners face each other: three parts, of which the second shares a

@@ -40,7 +40,7 @@ class TilePlane {
                 load(tile, rooms_[k]);
                 if (held) add(k, tile, rooms_[k]);
                 store(rooms_[k], lastOfAll);
-                if (layout_.channels == Channels::Over && rooms_[k].isClosed())
+                if (held && layout_.channels == Channels::Over && rooms_[k].isClosed())
                     tiles_[tile] = Tile::Closed;
             }
         });

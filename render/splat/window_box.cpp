@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <glm/common.hpp>
 #include <limits>
@@ -19,27 +20,14 @@ constexpr WindowBox kEverything{glm::dvec2(-kFar), glm::dvec2(kFar)};
 
 WindowBox windowBox(const PointsView& view, std::span<const glm::dvec3> corners) {
     constexpr std::size_t kMost = 8;
-    if (corners.size() > kMost) return kEverything;
+    assert(corners.size() <= kMost);
     std::array<glm::dvec3, kMost> seen;
-    double nearest = kFar, farthest = -kFar;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        seen[i] = glm::dvec3(view.viewFromAxes * glm::dvec4(corners[i], 1.0));
-        nearest = std::min(nearest, -seen[i].z);
-        farthest = std::max(farthest, -seen[i].z);
-    }
-    if (!(farthest > view.rays.near)) return kNothing;
-    if (!(nearest > view.rays.near)) {
-        SeenBounds bounds(view.rays);
-        bounds.takeHull(std::span(seen).first(corners.size()));
-        return {view.rays.centre + bounds.lo(), view.rays.centre + bounds.hi()};
-    }
-    WindowBox box = kNothing;
-    for (const glm::dvec3& corner : std::span(seen).first(corners.size())) {
-        const glm::dvec2 at = view.rays.centre + view.rays.focal * glm::dvec2(corner) / -corner.z;
-        box.lo = glm::min(box.lo, at);
-        box.hi = glm::max(box.hi, at);
-    }
-    return box;
+    std::ranges::transform(corners, seen.begin(), [&](const glm::dvec3& corner) {
+        return glm::dvec3(view.viewFromAxes * glm::dvec4(corner, 1.0));
+    });
+    SeenBounds bounds(view.rays);
+    bounds.takeHull(std::span(seen).first(corners.size()));
+    return {view.rays.centre + bounds.lo(), view.rays.centre + bounds.hi()};
 }
 
 ReachBox::ReachBox(const PointsView& view, const glm::dvec3& reach) : view_(view) {

@@ -14,8 +14,8 @@ struct WindowBox {
     glm::dvec2 lo, hi;
 };
 
-// Of what lies between these, up to eight of them, in axis coordinates, as far as it is in front of
-// the near plane.
+// Of what lies between these, in axis coordinates, as far as it is in front of the near plane.
+// REQUIRES: at most eight.
 WindowBox windowBox(const PointsView& view, std::span<const glm::dvec3> corners);
 
 // Of all that is no farther along each axis from places than so much.

@@ -55,9 +55,8 @@ TEST(ClipFlaw, OfAMeshIsToBeAPlane) {
             return glm::dvec3(i + j, 2 * j, k);
         });
     };
-    EXPECT_THAT(
-        clipFlaw(parseClip("min:max,2,min:max"), *meshOf(3)),
-        HasSubstr("is a plane, and the points of this grid lie in none: give a range of y"));
+    EXPECT_THAT(clipFlaw(parseClip("min:max,2,min:max"), *meshOf(3)),
+                HasSubstr("is a plane along y, and the points of this grid lie in no plane"));
     EXPECT_EQ(clipFlaw(parseClip("min:max,min:max,0:0"), *meshOf(1)), "");
 }
 

@@ -123,6 +123,15 @@ TEST_P(Frame, AnEyeDrawnBitByBitIsTheSameBitForBit) {
                 EXPECT_GE(calls, std::floor(cost / (atOnce + piece)));
                 EXPECT_EQ(renderer_.targets().readLight(), expected) << atOnce << " at a time";
             }
+            // To a time that has come nothing is drawn; to one that comes, a part or all.
+            auto work = renderer_.begin(frame, eyes[0]);
+            const double begun = work.cost;
+            EXPECT_FALSE(renderer_.goOn(work, cost, FrameRenderer::Clock::now()));
+            EXPECT_EQ(work.cost, begun);
+            using namespace std::chrono_literals;
+            while (!renderer_.goOn(work, cost, FrameRenderer::Clock::now() + 1ms))
+                EXPECT_LT(work.cost, (1 + 1e-9) * cost);
+            EXPECT_EQ(renderer_.targets().readLight(), expected) << "by the clock";
         }
 }
 

@@ -10,10 +10,9 @@
 
 #include "render/model/tet_splat.h"
 #include "render/reference/cells_on_rays.h"
+#include "tests/support/bent_grids.h"
 #include "tests/support/cell_rays.h"
 #include "tests/support/geographic.h"
-#include "tests/support/meshes.h"
-#include "tests/support/unstructured.h"
 
 namespace render {
 namespace tet_clip {
@@ -23,16 +22,6 @@ using tests::CellWorld;
 using tests::stepOfPlaces;
 using tests::cells::inside;
 using tests::cells::kFrom;
-using timeseries::Grid;
-
-// Bent inside a box of 4 x 3 x 5.
-std::vector<std::shared_ptr<const Grid>> bentGrids() {
-    std::vector<std::shared_ptr<const Grid>> grids{tests::curvilinear(
-        {5, 4, 6}, [](double i, double j, double k) { return tests::bent(i, j, k); })};
-    for (const tests::Cut cut : tests::kCuts)
-        grids.push_back(tests::gridOf(tests::atPoints(tests::bentBricks(cut))));
-    return grids;
-}
 
 IndexBox boxOf(const glm::dvec3& from, const glm::dvec3& to) {
     IndexBox box;
@@ -49,7 +38,7 @@ PlacedPoints::Box inAxes(const CellWorld& world, const glm::dvec3& from, const g
 // What is drawn of a field, all of which is in the range, is the box.
 TEST(TetClip, CellsEndWhereTheBoxDoes) {
     const glm::dvec3 from(1.23, 0.21, 0.7), to(2.61, 1.37, 4.9);
-    for (const auto& grid : bentGrids()) {
+    for (const auto& grid : tests::bentMeshes()) {
         CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.x; }), {"0:4"});
         world.scene.clip = boxOf(from, to);
         const PlacedPoints::Box left = inAxes(world, from, to);
@@ -74,7 +63,7 @@ TEST(TetClip, CellsEndWhereTheBoxDoes) {
 // In it the field goes on as it was: a range of one that is linear is a slab of the box, lit and
 // coloured as without it. In order the parts of a cell come the nearest first.
 TEST(TetClip, TheFieldGoesOnInWhatIsLeft) {
-    for (const auto& grid : bentGrids()) {
+    for (const auto& grid : tests::bentMeshes()) {
         CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.x + 2 * p.y; }), {"1:8"},
                         0.9);
         world.scene.layers[0].style.color = ByValue{{}, 1, 8};
@@ -109,7 +98,7 @@ Tetrahedron anyTet(std::mt19937& random) {
 // What both sides of a plane have adds up; parts are turned as they were, linear between corners,
 // and know the corner that they are beside.
 TEST(TetClip, PartsAreAllOfATetrahedron) {
-    const CellWorld world(stepOfPlaces(bentGrids().back(), [](const auto& p) { return p.x; }),
+    const CellWorld world(stepOfPlaces(tests::bentColumns(), [](const auto& p) { return p.x; }),
                           {"0:4"});
     std::mt19937 random(7);
     const double at = world.placed.axesFromGrid({1.7, 0, 0}).x;
@@ -157,7 +146,7 @@ std::pair<double, double> inside(const Tetrahedron& tet, const glm::dvec3& eye,
 // By all six planes of a box: rays meet parts one after another, and between them all that lies in
 // the tetrahedron and the box.
 TEST(TetClip, PartsInABoxComeAsRaysMeetThem) {
-    const CellWorld world(stepOfPlaces(bentGrids().back(), [](const auto& p) { return p.x; }),
+    const CellWorld world(stepOfPlaces(tests::bentColumns(), [](const auto& p) { return p.x; }),
                           {"0:4"});
     const PlacedPoints::Box box = inAxes(world, {1, 1, 1.5}, {3, 2, 3.5});
     const TetClip clip(world.placed, boxOf({1, 1, 1.5}, {3, 2, 3.5}));
@@ -197,14 +186,14 @@ TEST(TetClip, PartsInABoxComeAsRaysMeetThem) {
 
 // A box that is a plane holds points alone, with what is nearest to them.
 TEST(TetClip, PlanesAreByPoints) {
-    const auto grid = bentGrids().front();
+    const auto grid = tests::bentCurvilinear();
     EXPECT_FALSE(TetClip(PlacedPoints(*grid), boxOf({0, 0, 2}, {4, 3, 2})).cuts());
     EXPECT_TRUE(TetClip(PlacedPoints(*grid), boxOf({0, 0, 2}, {4, 3, 2.1})).cuts());
 }
 
 // A face of the box that no point is beyond cuts nothing of the half cells around the outermost.
 TEST(TetClip, HalfCellsStayWhereTheBoxHoldsAllPoints) {
-    const auto grid = bentGrids().front();
+    const auto grid = tests::bentCurvilinear();
     CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.x; }), {"0:4"});
     const View view = tests::lookFrom(kFrom[0], {40, 30}, 0.1);
     const auto all = tests::drawn(world.scene, view);
@@ -218,8 +207,9 @@ TEST(TetClip, OfAGlobeIsByPoints) {
         tests::gridOf(tests::east(0, 40, 5), tests::north(0, 30, 4), tests::levels(3));
     const IndexBox box = indexBox(*belt, {0, 0, 0}, {40, 10, 2});
     EXPECT_FALSE(TetClip(PlacedPoints(*belt, {}, Map::Globe), box).cuts());
-    EXPECT_FALSE(TetClip(PlacedPoints(*bentGrids().front()), {}).cuts());
-    EXPECT_TRUE(TetClip(PlacedPoints(*bentGrids().front()), boxOf({0, 0, 0}, {4, 1, 5})).cuts());
+    EXPECT_FALSE(TetClip(PlacedPoints(*tests::bentCurvilinear()), {}).cuts());
+    EXPECT_TRUE(
+        TetClip(PlacedPoints(*tests::bentCurvilinear()), boxOf({0, 0, 0}, {4, 1, 5})).cuts());
 }
 
 }  // namespace
