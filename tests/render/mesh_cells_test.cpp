@@ -14,6 +14,7 @@
 
 #include "render/reference/cell_pick.h"
 #include "render/reference/cells_on_rays.h"
+#include "render/reference/interval_truth.h"
 #include "render/reference/tets_on_pixels.h"
 #include "tests/support/cell_rays.h"
 #include "tests/support/meshes.h"
