@@ -44,7 +44,7 @@ picture "$data/nemo_northsea_u.nc" currents_globe.png --map globe --view 0,62,2.
 picture "$data/nemo_northsea_u.nc" currents.png --view 0,65,2.2 --target -0.3,0.1,0.2 "${currents[@]}"
 picture "$data/bluntfin/bluntfin.vts" bluntfin.png --size 1000x750 --view 25,22 --range 1.6:max --colormap viridis --opacity 0.35
 picture "$data/grids/wrf_mercator_moving_nest.nc" moving_nest.png --variable QRAIN --size 1000x750 --view 20,25 --step 2
-picture "$data/dambreak_amr/dambreak.pvd" dam_break.png --size 1000x750 --step 4 --view 25,22 --range 0.5:1 --color '#3aa0ff' --opacity 0.22
+picture "$data/dambreak_amr/dambreak.pvd" dam_break.png --size 1000x750 --step 8 --view 25,22 --range 0.5:1 --color '#3aa0ff' --opacity 0.9 --light full
 picture "$data/can.vtu" crushed_can.png --variable EQPS --size 1000x750 --view 15,28 --range 0.1:max --colormap inferno --opacity 0.5
 picture "$data/disk_out_ref.ex2" hot_disk.png --size 1000x750 --view 30,18 --range 400~2,500~2,600~2,700~2,800~2 --colormap inferno=250:900 --opacity 0.35
 picture "$data/mug_transient.e" mug.png --variable convected --step 10 --size 1000x750 --view 30,25 --range min:0.2 --colormap viridis --opacity 0.5
@@ -52,7 +52,7 @@ picture "$data/grids/icon_ocean_triangles.nc" ocean_of_triangles.png --variable 
 picture "$data/grids/warping_spheres.vtkhdf" warping_spheres.png --size 1000x750 --step 20 --view 25,20 --range min:max --colormap cool-warm --opacity 0.8
 picture "$data/fmri_filtered_func_64t.nii.gz" brain.png --size 1000x750 --step 32 --view 25,25 --range 5000:max --colormap inferno --opacity 0.2
 picture "$data/grids/emd_3001.map" density_map.png --size 1000x750 --view 30,15 --range 0.3:max --color '#3aa0ff' --opacity 0.6
-picture "$data/grids/chombo3d/chombo3d.vtm" adaptive_mesh.png --size 1000x750
+picture "$data/grids/chombo3d/chombo3d.vtm" adaptive_mesh.png --size 1000x750 --range=-0.034~0.0004,-0.026~0.0004,-0.018~0.0004 --colormap viridis --opacity 0.45
 picture "$data/grids/openpmd_femm_3d.h5" magnet.png --size 1000x750
 
 # First looks: nothing is asked for, the program chooses.

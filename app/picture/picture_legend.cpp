@@ -19,6 +19,8 @@
 #include "render/annotate/stretch_text.h"
 #include "render/annotate/ticks.h"
 #include "render/splat/mixed_splatter.h"
+#include "timeseries/grid/mesh.h"
+#include "timeseries/grid/solid_cells.h"
 
 namespace app {
 namespace {
@@ -27,6 +29,7 @@ using timeseries::Range;
 using timeseries::RangeSet;
 
 constexpr const char* kInterpolated = "interpolated between points";
+constexpr const char* kAboutMiddles = "interpolated between the middles of cells";
 constexpr const char* kByPointsAlone = " by points alone";  // after which layers are
 // After how many are selected: nothing lies between them and others.
 constexpr const char* kInfinite = " of infinite value counted, not drawn: points show them";
@@ -217,7 +220,9 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
         !stretch.empty())
         legend.notes.push_back(stretch);
     if (scene.cells && !scene.layers.empty()) {
-        legend.notes.emplace_back(kInterpolated);
+        const auto& mesh = scene.step.grid().mesh();
+        const bool ofMiddles = mesh && mesh->solids() && mesh->solids()->haveMiddles();
+        legend.notes.emplace_back(ofMiddles ? kAboutMiddles : kInterpolated);
         if (const std::uint64_t points = infinitePoints(scene); points > 0)
             legend.notes.push_back(withCommas(points) + kInfinite);
         if (const std::string which = pointLayers(e, scene); !which.empty())

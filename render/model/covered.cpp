@@ -44,10 +44,13 @@ double reachOf(double widest, const Corners& centres, const PointsView& view) {
 
 namespace {
 
-// What a scene's cells fill: of a mesh the outermost reach half a cell beyond its points, at most
-// as far as its widest cell is wide; or where coordinates begin anew as far as a prism reaches.
+// What a scene's cells fill: of a mesh its nodes, or the outermost reach half a cell beyond its
+// points, at most as far as its widest cell is wide; or where coordinates begin anew as far as a
+// prism reaches.
 PlacedPoints::Box boxOfCells(const PointsView& seen) {
     if (!seen.placed.isMesh()) return seen.domain;
+    if (seen.placed.mesh()->corners() > seen.placed.mesh()->count())
+        return seen.placed.cornersBox();
     PlacedPoints::Box box = seen.placed.pointsBox();
     const timeseries::Mesh& mesh = *seen.placed.mesh();
     glm::dvec3 more = mesh.widest();

@@ -180,6 +180,10 @@ std::shared_ptr<const Mesh> Globe::meshOf(const Grid& grid, const std::atomic<bo
         const auto point = [&](std::uint64_t i) { return goOn(), onGlobe(*file, *this, i); };
         auto mesh = std::make_shared<Mesh>(file->count(), between, file->spread(), point);
         mesh->setSolids(file->solids());
+        std::vector<glm::dvec3> nodes;
+        for (std::uint64_t i = file->count(); i < file->corners(); ++i)
+            nodes.push_back(at(file->cornerPosition(i)));
+        mesh->setNodes(nodes);
         return mesh;
     };
     try {

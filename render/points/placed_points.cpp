@@ -278,6 +278,12 @@ PlacedPoints::Box PlacedPoints::pointsBox() const {
     return {glm::min(a, b), glm::max(a, b)};
 }
 
+PlacedPoints::Box PlacedPoints::cornersBox() const {
+    const auto box = mesh_->cornersBox();
+    const glm::dvec3 a = axesFromGrid(box.lo), b = axesFromGrid(box.hi);
+    return {glm::min(a, b), glm::max(a, b)};
+}
+
 glm::uvec3 PlacedPoints::indices(std::uint64_t index) const {
     return timeseries::indicesOf(index, glm::vec<3, std::uint64_t>(size()));
 }

@@ -72,6 +72,10 @@ class PlacedPoints {
     // In the world.
     glm::dvec3 position(std::uint64_t index) const;
     glm::dvec3 alongAxes(std::uint64_t index) const;  // in axis coordinates
+    // The same of a corner of a mesh's solid cells: of a point or a node.
+    glm::dvec3 cornerAlongAxes(std::uint64_t corner) const {
+        return meshScale_ * (mesh_->cornerPosition(corner) - meshCentre_);
+    }
     glm::uvec3 indices(std::uint64_t index) const;
     // Whether that point is within the box.
     bool inside(std::uint64_t index, const IndexBox& box) const;
@@ -147,6 +151,8 @@ class PlacedPoints {
     // Between the outermost points: boxHalf() about the centre, but for a mesh that moves, whose
     // steps are in one box as far as they go.
     Box pointsBox() const;
+    // Of a mesh, that its nodes are in, too.
+    Box cornersBox() const;
     // Half sides of the points' box, in axis coordinates; all zero for a single point.
     glm::dvec3 boxHalf() const { return boxHalf_; }
     // The half box in the world: columns from the centre of the box to the middles of its faces.

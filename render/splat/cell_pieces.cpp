@@ -177,10 +177,10 @@ glm::dvec3 middleOfCell(const Scene& scene, std::uint32_t cell) {
     if (const auto& solids = placed.mesh()->solids()) {
         timeseries::SolidCells::Room room;
         const auto corners = solids->corners(cell, room);
-        const glm::dvec3 first = placed.alongAxes(corners.front()), period = placed.period();
+        const glm::dvec3 first = placed.cornerAlongAxes(corners.front()), period = placed.period();
         glm::dvec3 sum(0);
         for (const std::uint32_t corner : corners)
-            sum += timeseries::shorterWay(placed.alongAxes(corner) - first, period);
+            sum += timeseries::shorterWay(placed.cornerAlongAxes(corner) - first, period);
         return first + sum / static_cast<double>(corners.size());
     }
     const timeseries::CellCorners& corners = scene.cells->cornersOf();

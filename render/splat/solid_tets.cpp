@@ -23,7 +23,7 @@ glm::dvec3 SolidTets::longestOn(const Globe& globe) const {
 glm::dvec3 SolidTets::middle(std::uint32_t cell) const {
     timeseries::SolidCells::Room room;
     const auto corners = cells_.corners(cell, room);
-    const glm::dvec3 first = placed_.alongAxes(corners.front());
+    const glm::dvec3 first = placed_.cornerAlongAxes(corners.front());
     glm::dvec3 sum(0);
     for (const std::uint32_t corner : corners) sum += way(first, corner);
     return first + sum / static_cast<double>(corners.size());
@@ -53,17 +53,20 @@ std::uint64_t SolidTets::inFrontOf(const Drawn& part, std::span<const Drawn> par
 }
 
 unsigned SolidTets::take(const std::array<std::uint32_t, 4>& points, Tetrahedron& tet) const {
+    const bool ofMiddle = cells_.haveMiddles();  // the first
     unsigned inside = 0;
     for (unsigned i = 0; i < 4; ++i) {
-        tet.at[i] = placed_.alongAxes(points[i]);
+        tet.at[i] = placed_.cornerAlongAxes(points[i]);
         if (i > 0 && comesRound_)
             tet.at[i] = tet.at[0] + timeseries::shorterWay(tet.at[i] - tet.at[0], period_);
         if (!timeseries::isPlace(tet.at[i])) return 0;
         tet.corners[i] = points[i];
         if (gradients_) tet.gradients[i] = gradients_.at(points[i]);
         tet.values[i] = timeseries::finiteValue(field_, points[i]);
-        if (!byPoints_ || placed_.inside(points[i], clip_)) inside |= 1u << i;
+        const std::uint32_t point = ofMiddle ? points[0] : points[i];
+        if (!byPoints_ || placed_.inside(point, clip_)) inside |= 1u << i;
     }
+    if (ofMiddle && std::isnan(tet.values[0])) return 0;  // all of the cell is missing
     const unsigned seen = inside & timeseries::fillTetrahedron(tet.values);
     if (comesRound_) {
         const auto [least, most] = std::ranges::minmax(tet.at, {}, &glm::dvec3::x);

@@ -61,10 +61,12 @@ class SolidTets {
         timeseries::SolidCells::Room room;
         return timeseries::finiteExtent(field_, cells_.corners(cell, room));
     }
-    std::uint64_t pointOf(std::uint32_t, unsigned corner) const { return corner; }
+    std::uint64_t pointOf(std::uint32_t cell, unsigned corner) const {
+        return cells_.haveMiddles() ? cells_.middle(cell) : corner;
+    }
     template <typename Use>
     void forEachFace(std::uint32_t cell, const Use& use) const;
-    std::uint64_t faceKeys() const { return placed_.mesh()->count(); }
+    std::uint64_t faceKeys() const { return placed_.mesh()->corners(); }
     template <typename Use>
     void forEachTriangle(std::uint32_t cell, const FaceKey& key, const glm::dvec3& eye,
                          const Use& use) const;
@@ -99,11 +101,11 @@ class SolidTets {
     // Whether a cell that is drawn where its first corner is has this one elsewhere than others.
     bool isDrawnElsewhere(std::uint32_t cell, std::uint32_t corner) const {
         const glm::dvec3 first = placed_.alongAxes(cells_.firstCorner(cell));
-        return way(first, corner) != placed_.alongAxes(corner) - first;
+        return way(first, corner) != placed_.cornerAlongAxes(corner) - first;
     }
     // From a place to a point, the shorter way round.
     glm::dvec3 way(const glm::dvec3& from, std::uint32_t to) const {
-        const glm::dvec3 direct = placed_.alongAxes(to) - from;
+        const glm::dvec3 direct = placed_.cornerAlongAxes(to) - from;
         return comesRound_ ? timeseries::shorterWay(direct, period_) : direct;
     }
     glm::dvec3 middle(std::uint32_t cell) const;
@@ -195,7 +197,7 @@ void SolidTets::forEachTriangle(std::uint32_t cell, const FaceKey& key, const gl
     forEachKey(
         cell, [&](const FaceKey& of, std::size_t size, std::size_t least, const auto& pointAt) {
             if (of != key) return;
-            const glm::dvec3 apex = placed_.alongAxes(pointAt(least));
+            const glm::dvec3 apex = placed_.cornerAlongAxes(pointAt(least));
             const auto place = [&](std::size_t i) { return apex + way(apex, pointAt(i % size)); };
             const double side = sideOfFace(inside, size, least, pointAt, eye);
             for (std::size_t i = 1; i + 1 < size; ++i)
@@ -220,7 +222,7 @@ void SolidTets::forEachFace(std::uint32_t cell, const Use& use) const {
 template <typename PointAt>
 double SolidTets::sideOfFace(const glm::dvec3& middle, std::size_t size, std::size_t least,
                              const PointAt& pointAt, const glm::dvec3& eye) const {
-    const glm::dvec3 apex = placed_.alongAxes(pointAt(least));
+    const glm::dvec3 apex = placed_.cornerAlongAxes(pointAt(least));
     glm::dvec3 normal(0);
     glm::dvec3 before = way(apex, pointAt((least + 1) % size));
     for (std::size_t i = 2; i < size; ++i) {

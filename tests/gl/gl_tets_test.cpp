@@ -25,11 +25,14 @@ using tests::lookFrom;
 using timeseries::Grid;
 using GlTetsOf = tests::GlCellPlanes;
 
-// One of each kind: six tetrahedra about a diagonal; fans of the faces of cells of every shape.
+// One of each kind: six tetrahedra about a diagonal; fans of the faces of cells of every shape, and
+// cones about the middles of some that have the values.
 std::vector<std::shared_ptr<const Grid>> grids() {
     std::vector<std::shared_ptr<const Grid>> all{tests::twisted()};
     for (const tests::Cut cut : tests::kCuts)
         all.push_back(tests::gridOf(tests::atPoints(tests::bentBricks(cut))));
+    for (const tests::Cut cut : {tests::Cut::Tetrahedra, tests::Cut::Polyhedra})
+        all.push_back(tests::gridOf(tests::atCells(tests::bentBricks(cut))));
     return all;
 }
 

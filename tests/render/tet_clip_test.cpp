@@ -37,7 +37,7 @@ PlacedPoints::Box inAxes(const CellWorld& world, const glm::dvec3& from, const g
 
 // What is drawn of a field, all of which is in the range, is the box.
 TEST(TetClip, CellsEndWhereTheBoxDoes) {
-    const glm::dvec3 from(1.23, 0.21, 0.7), to(2.61, 1.37, 4.9);
+    const glm::dvec3 from(1.23, 0.71, 0.7), to(2.61, 1.37, 4.3);
     for (const auto& grid : tests::bentMeshes()) {
         CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.x; }), {"0:4"});
         world.scene.clip = boxOf(from, to);

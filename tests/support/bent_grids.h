@@ -1,5 +1,4 @@
-// Grids of 4 x 3 x 5 bricks that are bent inside the same box, as tests::bent has it, whose points
-// have the values.
+// Grids of 4 x 3 x 5 bricks that are bent inside the same box, as tests::bent has it.
 #pragma once
 
 #include <cstdint>
@@ -41,15 +40,22 @@ inline std::shared_ptr<const timeseries::Grid> bentColumns() {
     return gridOf(raised(prisms, heights));
 }
 
-// Of solid cells, of each kind.
+// Of solid cells, whose points have the values, of each kind.
 inline std::vector<std::shared_ptr<const timeseries::Grid>> bentSolids() {
     std::vector<std::shared_ptr<const timeseries::Grid>> grids;
     for (const Cut cut : kCuts) grids.push_back(bentGrid(cut));
     grids.push_back(bentColumns());
     return grids;
 }
+// Of those that have the values themselves.
+inline std::vector<std::shared_ptr<const timeseries::Grid>> bentCells() {
+    std::vector<std::shared_ptr<const timeseries::Grid>> grids;
+    for (const Cut cut : kCuts) grids.push_back(gridOf(atCells(bentBricks(cut))));
+    return grids;
+}
 inline std::vector<std::shared_ptr<const timeseries::Grid>> bentMeshes() {
     auto grids = bentSolids();
+    for (auto& cells : bentCells()) grids.push_back(std::move(cells));
     grids.push_back(bentCurvilinear());
     return grids;
 }

@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <glm/common.hpp>
 #include <map>
 
 #include "tests/support/plotfile.h"
 #include "tests/support/read_variables.h"
 #include "tests/support/unstructured.h"
 #include "timeseries/grid/cell_types.h"
+#include "timeseries/grid/solid_cells.h"
 #include "timeseries/index/sorted_step.h"
 #include "timeseries/readers/series_files.h"
 
@@ -269,6 +272,34 @@ TEST(Amrex, TwoSeriesInAFolderAreNotOne) {
     } catch (const FileError& error) {
         EXPECT_THAT(error.what(), HasSubstr("expected a folder that holds one series"));
     }
+}
+
+// Where leaves meet, of one level or of two, they share corners.
+TEST(Amrex, LeavesAreCellsBetweenTheirCorners) {
+    const auto reader = open(writtenAs(threeLevels()));
+    const Mesh& mesh = *reader->variables()[0].grid->mesh();
+    ASSERT_TRUE(mesh.solids());
+    const SolidCells& solids = *mesh.solids();
+    ASSERT_EQ(solids.count(), mesh.count());
+    std::map<Place, std::uint32_t> numbers;
+    SolidCells::Room room;
+    std::size_t shared = 0;
+    for (std::uint64_t i = 0; i < mesh.count(); ++i) {
+        glm::dvec3 lo(INFINITY), hi(-INFINITY);
+        for (const std::uint32_t corner : solids.corners(i, room)) {
+            if (corner < mesh.count()) continue;
+            const glm::dvec3 at = mesh.cornerPosition(corner);
+            lo = glm::min(lo, at);
+            hi = glm::max(hi, at);
+            const auto [first, isNew] = numbers.try_emplace(rounded(at), corner);
+            EXPECT_EQ(first->second, corner);
+            shared += !isNew;
+        }
+        EXPECT_EQ(rounded(0.5 * (lo + hi)), rounded(mesh.position(i)));
+        const glm::dvec3 side = hi - lo;
+        EXPECT_NEAR(side.x * side.y * side.z, mesh.volume(i), 1e-5 * mesh.volume(i));
+    }
+    EXPECT_GT(shared, mesh.count());
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 
 #include "tests/support/meshes.h"
 #include "tests/support/unstructured.h"
+#include "timeseries/index/node_values.h"
 #include "timeseries/index/sorted_step.h"
 
 namespace timeseries {
@@ -69,6 +70,27 @@ TEST(PointGradients, OfALinearFieldAreItsOwn) {
             for (std::size_t i = 0; i < grid->count(); ++i)
                 expectNear(gradients.at(i), unitless(gradients, g, scale), 1e-5);
         }
+}
+
+// Of cells that have the values, where all about them have cells beyond.
+TEST(PointGradients, OfALinearFieldOfCellsAreItsOwnWithin) {
+    const glm::dvec3 g(0.3, -4, 2);
+    const glm::dvec3 step(10, 1, 3), from(1e3, -2, 5);
+    const auto grid = tests::gridOf(tests::atCells(tests::bricks(
+        {6, 7, 6}, tests::Cut::Polyhedra,
+        [&](double i, double j, double k) { return from + step * glm::dvec3(i, j, k); })));
+    const auto field = withNodeValues(std::make_shared<const Field>(
+        fieldOn(grid, [&](auto, const auto& p) { return glm::dot(g, p); })));
+    const PointGradients gradients(*field, grid->mesh(), 2);
+    int within = 0;
+    for (std::size_t corner = 0; corner < grid->mesh()->corners(); ++corner) {
+        const glm::dvec3 at = (grid->mesh()->cornerPosition(corner) - from) / step;
+        const glm::dvec3 other = glm::dvec3(5, 6, 5) - at;
+        if (std::min({at.x, at.y, at.z, other.x, other.y, other.z}) < 1.4) continue;
+        ++within;
+        expectNear(gradients.at(corner), unitless(gradients, g), 1e-4);
+    }
+    EXPECT_EQ(within, 3 * 4 * 3 + 2 * 3 * 2);
 }
 
 // Whatever the quotients of its units would be.

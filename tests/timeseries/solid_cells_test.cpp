@@ -220,16 +220,176 @@ TEST(SolidCells, OfCurvedCellsTheCornersCount) {
     EXPECT_EQ(solids->longest(), glm::dvec3(1));
 }
 
-TEST(SolidCells, MeshesOfPointsHaveThemAndMeshesOfCellsDoNot) {
+// As above, but that a cell's middle is a corner of all of its parts. Nodes are numbered on from
+// the last cell, and faces between two cells are parted alike.
+TEST(SolidCells, AboutMiddlesTheyFillTheirGridAndMeetFaceToFace) {
+    std::mt19937 random(4);
+    for (const Cut cut : kCuts)
+        for (int turn = 0; turn < 5; ++turn) {
+            const UnstructuredGrid grid = renumbered(tests::bentBricks(cut), random);
+            const Mesh mesh = tests::atCells(grid);
+            const auto cells = static_cast<std::uint32_t>(grid.types.size());
+            ASSERT_TRUE(mesh.solids());
+            const SolidCells& solids = *mesh.solids();
+            ASSERT_EQ(solids.count(), cells);
+            ASSERT_EQ(solids.firstNode(), cells);
+            EXPECT_EQ(solids.longest(), SolidCells::of(grid, grid.points.size())->longest());
+            double volume = 0;
+            std::uint64_t tets = 0;
+            std::map<std::array<std::uint32_t, 3>, int> faces;
+            for (std::uint32_t cell = 0; cell < cells; ++cell) {
+                EXPECT_EQ(solids.middle(cell), cell);
+                EXPECT_EQ(solids.firstCorner(cell), cell);
+                solids.forEachTet(cell, [&](const std::array<std::uint32_t, 4>& tet) {
+                    EXPECT_EQ(tet[0], cell);
+                    EXPECT_GE(*std::min_element(tet.begin() + 1, tet.end()), cells);
+                    std::array<glm::dvec3, 4> at;
+                    for (std::size_t i = 0; i < 4; ++i) at[i] = mesh.cornerPosition(tet[i]);
+                    volume += std::abs(glm::dot(at[1] - at[0],
+                                                glm::cross(at[2] - at[0], at[3] - at[0]))) /
+                              6;
+                    ++tets;
+                    std::array face{tet[1], tet[2], tet[3]};
+                    std::ranges::sort(face);
+                    ++faces[face];
+                });
+            }
+            EXPECT_EQ(tets, solids.tets());
+            EXPECT_NEAR(volume, 60, 1e-4);
+            for (const auto& [face, times] : faces) {
+                const auto& corners = face;
+                const auto onSide = [&](int a, double side) {
+                    return std::ranges::all_of(corners, [&](std::uint32_t corner) {
+                        return grid.points[corner - cells][a] == side;
+                    });
+                };
+                const bool isOutside = onSide(0, 0) || onSide(0, 4) || onSide(1, 0) ||
+                                       onSide(1, 3) || onSide(2, 0) || onSide(2, 5);
+                ASSERT_EQ(times, isOutside ? 1 : 2);
+            }
+        }
+}
+
+// Also where places differ by what rounding leaves; points that only nearly meet stay apart.
+TEST(SolidCells, AboutMiddlesPartsShareTheNodesWhereTheyMeet) {
+    for (const Cut cut : {Cut::Tetrahedra, Cut::Polyhedra}) {
+        const UnstructuredGrid whole = tests::bentBricks(cut);
+        const auto nodes = static_cast<std::uint32_t>(whole.points.size());
+        UnstructuredGrid parts = whole;
+        parts.inParts = true;
+        for (const glm::dvec3& at : whole.points) parts.points.push_back(at * (1 + 1e-15));
+        const auto move = [&](std::size_t cell, std::uint32_t& corner) {
+            if (cell % 2 == 1) corner += nodes;
+        };
+        for (std::size_t cell = 0; cell < whole.types.size(); ++cell) {
+            for (std::uint64_t i = cell == 0 ? 0 : whole.ends[cell - 1]; i < whole.ends[cell]; ++i)
+                move(cell, parts.corners[i]);
+            if (whole.faceEnds.empty()) continue;
+            for (std::size_t at = (cell == 0 ? 0 : whole.faceEnds[cell - 1]) + 1;
+                 at < whole.faceEnds[cell]; at += 1 + whole.faces[at])
+                for (std::size_t i = 1; i <= whole.faces[at]; ++i) move(cell, parts.faces[at + i]);
+        }
+        ASSERT_EQ(flawOf(parts), "");
+        EXPECT_TRUE(SolidCells::aboutMiddles(parts)->joinsAs(*SolidCells::aboutMiddles(whole)));
+        for (std::uint32_t i = nodes; i < 2 * nodes; ++i) parts.points[i] *= 1 + 1e-8;
+        EXPECT_FALSE(SolidCells::aboutMiddles(parts)->joinsAs(*SolidCells::aboutMiddles(whole)));
+    }
+}
+
+// Of voxels of two sizes, and of a quarter of the large ones beside an edge alone, the faces that
+// meet are the same.
+TEST(SolidCells, AboutMiddlesVoxelsOfTwoSizesMeetFaceToFace) {
+    UnstructuredGrid grid;
+    grid.levels = 2;
+    const auto add = [&](const glm::dvec3& at, double side) {
+        const auto first = static_cast<std::uint32_t>(grid.points.size());
+        for (int n = 0; n < 8; ++n)
+            grid.points.push_back(at + side * glm::dvec3(n & 1, n >> 1 & 1, n >> 2));
+        addCell(
+            grid, 11,
+            {first, first + 1, first + 2, first + 3, first + 4, first + 5, first + 6, first + 7});
+    };
+    const double side = 1.0 / 3;
+    for (int n = 0; n < 27; ++n) {
+        const glm::dvec3 at(n % 3, n / 3 % 3, n / 9);
+        if (n != 13) add(side * at, side);
+    }
+    for (int n = 0; n < 64; ++n)  // of the fourth part
+        add(side * (glm::dvec3(1) + glm::dvec3(n % 4, n / 4 % 4, n / 16) / 4.0), side / 4);
+    const Mesh mesh = tests::atCells(grid);
+    const SolidCells& solids = *mesh.solids();
+    const auto cells = static_cast<std::uint32_t>(grid.types.size());
+    double volume = 0;
+    std::map<std::array<std::uint32_t, 3>, int> faces;
+    for (std::uint32_t cell = 0; cell < cells; ++cell)
+        solids.forEachTet(cell, [&](const std::array<std::uint32_t, 4>& tet) {
+            EXPECT_EQ(tet[0], cell);
+            std::array<glm::dvec3, 4> at;
+            for (std::size_t i = 0; i < 4; ++i) at[i] = mesh.cornerPosition(tet[i]);
+            volume +=
+                std::abs(glm::dot(at[1] - at[0], glm::cross(at[2] - at[0], at[3] - at[0]))) / 6;
+            const glm::dvec3 area = glm::cross(at[2] - at[1], at[3] - at[1]);
+            if (glm::length(area) < 1e-6) return;  // points of an edge
+            std::array face{tet[1], tet[2], tet[3]};
+            std::ranges::sort(face);
+            ++faces[face];
+        });
+    EXPECT_NEAR(volume, 1, 1e-6);
+    for (const auto& [face, times] : faces) {
+        const auto& corners = face;
+        const auto onSide = [&](int a, double of) {
+            return std::ranges::all_of(corners, [&](std::uint32_t corner) {
+                return std::abs(grid.points[corner - cells][a] - of) < 1e-9;
+            });
+        };
+        const bool isOutside = onSide(0, 0) || onSide(0, 1) || onSide(1, 0) || onSide(1, 1) ||
+                               onSide(2, 0) || onSide(2, 1);
+        EXPECT_EQ(times, isOutside ? 1 : 2);
+    }
+}
+
+// Whose numbers then are not those of the solids.
+TEST(SolidCells, AboutMiddlesKnowTheirNumbersInTheFile) {
+    UnstructuredGrid grid;
+    grid.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+    addCell(grid, 5, {0, 1, 2});
+    addCell(grid, 10, {0, 1, 2, 3});
+    addCell(grid, 1, {4});
+    addCell(grid, 10, {4, 1, 2, 3});
+    const auto solids = SolidCells::aboutMiddles(grid);
+    ASSERT_TRUE(solids);
+    ASSERT_EQ(solids->count(), 2u);
+    EXPECT_EQ(solids->middle(0), 1u);
+    EXPECT_EQ(solids->middle(1), 3u);
+    SolidCells::Room room;
+    const auto corners = solids->corners(1, room);
+    EXPECT_EQ(std::vector(corners.begin(), corners.end()),
+              (std::vector<std::uint32_t>{4 + 4, 4 + 1, 4 + 2, 4 + 3, 3}));
+    grid.types.assign(4, 5);
+    EXPECT_EQ(SolidCells::aboutMiddles(grid), nullptr) << "surfaces";
+    EXPECT_EQ(SolidCells::aboutMiddles({}), nullptr);
+}
+
+TEST(SolidCells, MeshesOfPointsAndOfCellsHaveThem) {
     const UnstructuredGrid grid = bricks({3, 3, 3}, Cut::Wedges, plain);
     ASSERT_TRUE(tests::atPoints(grid).solids());
     EXPECT_EQ(tests::atPoints(grid).solids()->count(), 16u);
-    EXPECT_FALSE(tests::atCells(grid).solids());
+    EXPECT_FALSE(tests::atPoints(grid).solids()->haveMiddles());
+    EXPECT_EQ(tests::atPoints(grid).corners(), 27u);
+    ASSERT_TRUE(tests::atCells(grid).solids());
+    EXPECT_EQ(tests::atCells(grid).corners(), 16u + 27);
     // Their points alike, cells that are not make another mesh.
     EXPECT_EQ(tests::atPoints(grid), tests::atPoints(grid));
     UnstructuredGrid other = grid;
     std::swap(other.corners[1], other.corners[2]);
     EXPECT_FALSE(tests::atPoints(grid) == tests::atPoints(other));
+    EXPECT_EQ(tests::atCells(grid), tests::atCells(grid));
+    EXPECT_FALSE(tests::atCells(grid) == tests::atCells(other));
+    other = grid;
+    other.points.push_back({1, 1, 1});
+    EXPECT_FALSE(tests::atCells(grid) == tests::atCells(other));
+    // Columns above cells are none.
+    EXPECT_FALSE(meshOfCells(grid, UnstructuredShapes(grid), {0, 1}).solids());
 }
 
 }  // namespace

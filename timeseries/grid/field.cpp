@@ -13,7 +13,7 @@ std::string_view typeName(ValueType type) {
 
 std::uint64_t Field::bytes() const {
     return std::visit([](const auto& of) { return of.size() * sizeof(of[0]); }, values) +
-           missing.size() / 8;
+           missing.size() / 8 + atNodes.size() * sizeof(double);
 }
 
 }  // namespace timeseries

@@ -29,6 +29,9 @@ struct Field {
     std::vector<bool>
         missing;              // per point; empty when none is. NaN is missing without being marked
     bool categories = false;  // values are names of classes: nothing lies between two of them
+    // What it has at its grid's nodes, where cells have the values
+    // (timeseries/index/node_values.h): who needs them sets them.
+    std::vector<double> atNodes = {};
 
     ValueType type() const { return static_cast<ValueType>(values.index()); }
     // Of memory, the grid's aside.

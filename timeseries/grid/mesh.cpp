@@ -257,6 +257,23 @@ void Mesh::takeSums(const Sums& sums) {
     absent_ = sums.absent * levels;
 }
 
+void Mesh::setNodes(std::span<const glm::dvec3> nodes) {
+    constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+    constexpr double kMost = 0x1p100;  // no cell is so large
+    nodes_.resize(nodes.size());
+    inParts(nodes.size(), threadsFor(nodes.size(), 1 << 14), [&](std::size_t i, std::size_t last) {
+        for (; i < last; ++i) {
+            const glm::dvec3 at = (nodes[i] - origin_) / unit_;
+            const glm::dvec3 away = glm::abs(at);
+            const bool isNear = away.x < kMost && away.y < kMost && away.z < kMost;
+            nodes_[i] = isNear ? glm::vec3(at) : glm::vec3(kNowhere);
+        }
+    });
+    Bounds bounds = boundsOf(nodes);
+    bounds.add({lo_, hi_});
+    cornersBox_ = {bounds.lo, bounds.hi};
+}
+
 glm::dvec3 Mesh::position(std::uint64_t index) const {
     return position(points_.data()[levels_.empty() ? index : index % stored_], index);
 }
@@ -299,7 +316,8 @@ std::vector<std::string> notesOf(const Mesh& mesh) {
 
 std::uint64_t Mesh::bytes() const {
     return stored_ * sizeof(Point) + levels_.size() * sizeof(Level) +
-           (solids_ ? solids_->bytes() : 0) + about_.types.size();
+           nodes_.size() * sizeof(nodes_[0]) + (solids_ ? solids_->bytes() : 0) +
+           about_.types.size();
 }
 
 bool operator==(const Mesh& a, const Mesh& b) {
@@ -311,7 +329,10 @@ bool operator==(const Mesh& a, const Mesh& b) {
     return sameSolids && a.about_ == b.about_ && a.size_ == b.size_ &&
            a.hasNeighbours_ == b.hasNeighbours_ && a.spread_ == b.spread_ &&
            a.period_ == b.period_ && a.origin_ == b.origin_ && a.unit_ == b.unit_ &&
-           std::ranges::equal(a.levels_, b.levels_, sameLevel) && a.stored_ == b.stored_ &&
+           std::ranges::equal(a.levels_, b.levels_, sameLevel) &&
+           a.nodes_.size() == b.nodes_.size() && a.stored_ == b.stored_ &&
+           std::memcmp(a.nodes_.data(), b.nodes_.data(), a.nodes_.size() * sizeof(glm::vec3)) ==
+               0 &&
            std::memcmp(a.points_.data(), b.points_.data(), a.stored_ * sizeof(Mesh::Point)) == 0;
 }
 

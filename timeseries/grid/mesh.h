@@ -71,6 +71,9 @@ class Mesh {
         solids_ = std::move(solids);
         period_ = period;
     }
+    // Likewise, after that, where the solids have middles: where their nodes lie, in the file's
+    // space. REQUIRES: no levels.
+    void setNodes(std::span<const glm::dvec3> nodes);
     // Likewise. REQUIRES: `types` of all points, or of none.
     void setAbout(MeshAbout about) { about_ = std::move(about); }
     const MeshAbout& about() const { return about_; }
@@ -82,6 +85,17 @@ class Mesh {
     struct Point;
     // The same of what is kept of it.
     glm::dvec3 position(const Point& point, std::uint64_t index) const;
+    // Of a corner of solids(): a point, or of those that are numbered on from the last a node.
+    std::uint64_t corners() const { return count() + nodes_.size(); }
+    glm::dvec3 cornerPosition(std::uint64_t corner) const {
+        if (nodes_.empty() || corner < stored_) return position(corner);
+        return origin_ + unit_ * glm::dvec3(nodes_[corner - stored_]);
+    }
+    // The least and greatest of each coordinate of points and nodes.
+    struct Box {
+        glm::dvec3 lo, hi;
+    };
+    Box cornersBox() const { return nodes_.empty() ? Box{lo_, hi_} : cornersBox_; }
     // The shape of the cell that the point stands for, `spread` times as wide. Zero where nothing
     // is drawn: no place, no volume, or folded, turned inside out beside most of the others.
     LowerTriangle<double> cell(std::uint64_t index) const;
@@ -170,6 +184,8 @@ class Mesh {
     std::uint64_t stored_ = 0;
     Pages<Point> points_;  // [stored_]
     std::vector<Level> levels_;
+    PageVector<glm::vec3> nodes_;  // relative to the origin, in the mesh's units
+    Box cornersBox_{};             // if there are any
     glm::dvec3 lo_{0}, hi_{0}, widest_{0}, longestWay_{0};
     long double meanVolume_ = 0;
     double sign_ = 1;  // of the determinants of most cells

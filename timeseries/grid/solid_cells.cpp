@@ -6,20 +6,67 @@
 #include <numeric>
 #include <utility>
 
+#include "timeseries/grid/meeting_points.h"
 #include "timeseries/together.h"
 
 namespace timeseries {
+namespace {
+
+constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::uint32_t>::max();
+
+// None of what is no solid, or has a corner beyond the first `points`. REQUIRES: no polyhedron.
+std::span<const std::uint32_t> solidCorners(const UnstructuredGrid& grid, std::uint64_t cell,
+                                            std::uint64_t points) {
+    const CellType* const type = cellTypeOf(grid.types[cell]);
+    if (!type || type->dimension != 3) return {};
+    const auto corners = listOf(grid.corners, grid.ends, cell).first(type->corners);
+    const bool areThere =
+        std::ranges::all_of(corners, [&](std::uint32_t corner) { return corner < points; });
+    return areThere ? corners : std::span<const std::uint32_t>();
+}
+
+}  // namespace
 
 std::shared_ptr<const SolidCells> SolidCells::of(const UnstructuredGrid& grid,
                                                  std::uint64_t points) {
+    return ofSolids(grid, points, 0);
+}
+
+std::shared_ptr<const SolidCells> SolidCells::aboutMiddles(const UnstructuredGrid& grid) {
+    const std::uint64_t cells = grid.types.size();
+    if (cells == 0 || cells + grid.points.size() > kMostNumbers) return nullptr;
+    const auto firstNode = static_cast<std::uint32_t>(cells);
+    if (grid.levels > 1)
+        if (const UnstructuredGrid whole = withHangingPoints(grid); whole.levels == 0)
+            return ofSolids(whole, whole.points.size(), firstNode);
+    auto solids = ofSolids(grid, grid.points.size(), firstNode);
+    if (!solids || !grid.inParts) return solids;
+    const MeetingPoints places(grid.points);
+    const std::vector<std::uint32_t>& first = places.first();
+    const auto share = [&](std::uint32_t& corner) {
+        if (corner >= cells) corner = solids->firstNode_ + first[corner - cells];
+    };
+    std::ranges::for_each(solids->corners_, share);
+    solids->forEachFaceCorner(share);
+    return solids;
+}
+
+template <typename Use>
+void SolidCells::forEachFaceCorner(const Use& use) {
+    for (std::size_t at = 0; at < faces_.size(); at += 1 + faces_[at])
+        for (std::size_t i = 1; i <= faces_[at]; ++i) use(faces_[at + i]);
+}
+
+std::shared_ptr<SolidCells> SolidCells::ofSolids(const UnstructuredGrid& grid, std::uint64_t points,
+                                                 std::uint32_t firstNode) {
     auto solids = std::make_shared<SolidCells>();
-    solids->types_.reserve(grid.types.size());
-    solids->ends_.reserve(grid.types.size());
-    solids->corners_.reserve(grid.corners.size());
-    for (std::uint64_t cell = 0; cell < grid.types.size(); ++cell) {
-        const CellType* type = cellTypeOf(grid.types[cell]);
-        if (type && type->dimension == 3) solids->add(grid, cell, points);
-    }
+    solids->firstNode_ = firstNode;
+    if (grid.faceEnds.empty())
+        solids->takeAll(grid, points);
+    else
+        for (std::uint64_t cell = 0; cell < grid.types.size(); ++cell)
+            solids->add(grid, cell, points);
+    if (solids->faces_.empty()) solids->faceEnds_.clear();
     if (solids->types_.empty()) return nullptr;
     solids->measure(grid.points);
     return solids;
@@ -28,9 +75,8 @@ std::shared_ptr<const SolidCells> SolidCells::of(const UnstructuredGrid& grid,
 std::shared_ptr<const SolidCells> SolidCells::ofColumns(Feet feet, std::uint64_t columns,
                                                         std::size_t levels,
                                                         const glm::dvec3& longest) {
-    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
-    if (!feet || feet->empty() || levels < 2 || columns > kMost / levels ||
-        feet->size() > kMost / (levels - 1))
+    if (!feet || feet->empty() || levels < 2 || columns > kMostNumbers / levels ||
+        feet->size() > kMostNumbers / (levels - 1))
         return nullptr;
     auto solids = std::make_shared<SolidCells>();
     solids->feet_ = std::move(feet);
@@ -55,24 +101,70 @@ glm::dvec2 SolidCells::longestOf(std::span<const Foot> feet, double turn,
     return longest;
 }
 
-void SolidCells::add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint64_t points) {
-    const bool isPolyhedron = grid.types[cell] == kPolyhedron;
-    const std::size_t facesBefore = faces_.size(), cornersBefore = corners_.size();
-    if (isPolyhedron) {  // its corners are those of its faces, whatever else the file lists
-        const auto list = listOf(grid.faces, grid.faceEnds, cell);
-        std::size_t at = 1;
-        for (std::uint32_t left = list.empty() ? 0 : list[0]; left > 0; --left) {
-            const auto face = list.subspan(at, 1 + list[at]);
-            faces_.insert(faces_.end(), face.begin(), face.end());
-            corners_.insert(corners_.end(), face.begin() + 1, face.end());
-            at += face.size();
+// How many, then of each how many corners, and which.
+void SolidCells::addFaces(std::span<const std::uint32_t> list) {
+    if (list.empty()) return;
+    const auto first = static_cast<std::ptrdiff_t>(corners_.size());
+    std::size_t at = 1;
+    for (std::uint32_t left = list[0]; left > 0; --left) {
+        faces_.push_back(list[at]);
+        for (const std::uint32_t corner : list.subspan(at + 1, list[at])) {
+            faces_.push_back(firstNode_ + corner);
+            corners_.push_back(corner);
         }
-        const auto begin = corners_.begin() + static_cast<std::ptrdiff_t>(cornersBefore);
-        std::sort(begin, corners_.end());
-        corners_.erase(std::unique(begin, corners_.end()), corners_.end());
+        at += 1 + list[at];
+    }
+    std::sort(corners_.begin() + first, corners_.end());
+    corners_.erase(std::unique(corners_.begin() + first, corners_.end()), corners_.end());
+}
+
+// Where none is a polyhedron, on all threads.
+void SolidCells::takeAll(const UnstructuredGrid& grid, std::uint64_t points) {
+    struct Part {
+        std::uint64_t cells = 0, corners = 0;
+    };
+    const std::uint64_t cells = grid.types.size();
+    const unsigned threads = threadsFor(cells, 1 << 14);
+    std::vector<Part> firsts(threads + 1);
+    const auto forEach = [&](unsigned k, const auto& use) {
+        for (std::uint64_t cell = cells * k / threads; cell < cells * (k + 1) / threads; ++cell)
+            if (const auto corners = solidCorners(grid, cell, points); !corners.empty())
+                use(cell, corners);
+    };
+    const std::uint64_t middles = haveMiddles() ? 1 : 0;
+    together(threads, [&](unsigned k) {
+        Part part;
+        forEach(k, [&](std::uint64_t, const auto& corners) {
+            ++part.cells;
+            part.corners += corners.size() + middles;
+        });
+        firsts[k + 1] = part;
+    });
+    for (unsigned k = 0; k < threads; ++k) {
+        firsts[k + 1].cells += firsts[k].cells;
+        firsts[k + 1].corners += firsts[k].corners;
+    }
+    types_.resize(firsts[threads].cells);
+    ends_.resize(firsts[threads].cells);
+    corners_.resize(firsts[threads].corners);
+    together(threads, [&](unsigned k) {
+        std::uint64_t to = firsts[k].cells, corner = firsts[k].corners;
+        forEach(k, [&](std::uint64_t cell, const auto& corners) {
+            for (const std::uint32_t point : corners) corners_[corner++] = firstNode_ + point;
+            if (haveMiddles()) corners_[corner++] = static_cast<std::uint32_t>(cell);
+            types_[to] = grid.types[cell];
+            ends_[to++] = corner;
+        });
+    });
+}
+
+void SolidCells::add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint64_t points) {
+    const std::size_t facesBefore = faces_.size(), cornersBefore = corners_.size();
+    const bool isPolyhedron = grid.types[cell] == kPolyhedron;
+    if (isPolyhedron) {  // its corners are those of its faces, whatever else the file lists
+        addFaces(listOf(grid.faces, grid.faceEnds, cell));
     } else {
-        const auto corners =
-            listOf(grid.corners, grid.ends, cell).first(cellTypeOf(grid.types[cell])->corners);
+        const auto corners = solidCorners(grid, cell, points);
         corners_.insert(corners_.end(), corners.begin(), corners.end());
     }
     const auto own = std::span(corners_).subspan(cornersBefore);
@@ -81,19 +173,22 @@ void SolidCells::add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint
         faces_.resize(facesBefore);
         return;
     }
+    if (haveMiddles()) {
+        for (std::uint32_t& corner : own) corner += firstNode_;
+        corners_.push_back(static_cast<std::uint32_t>(cell));
+    }
     types_.push_back(grid.types[cell]);
     ends_.push_back(corners_.size());
-    // Only where there are any.
-    if (isPolyhedron || !faces_.empty()) faceEnds_.resize(types_.size(), facesBefore);
-    if (isPolyhedron) faceEnds_.back() = faces_.size();
+    faceEnds_.push_back(faces_.size());
 }
 
 void SolidCells::measure(std::span<const glm::dvec3> points) {
     const auto extentOf = [&](std::uint64_t cell) {
         glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
         for (const std::uint32_t corner : listOf(corners_, ends_, cell)) {
-            lo = glm::min(lo, points[corner]);
-            hi = glm::max(hi, points[corner]);
+            if (corner < firstNode_) continue;  // a middle lies between them
+            lo = glm::min(lo, points[corner - firstNode_]);
+            hi = glm::max(hi, points[corner - firstNode_]);
         }
         return hi - lo;
     };
@@ -121,9 +216,10 @@ std::uint64_t SolidCells::bytes() const {
 
 bool SolidCells::joinsAs(const SolidCells& other) const {
     const bool sameFeet = feet_ == other.feet_ || (feet_ && other.feet_ && *feet_ == *other.feet_);
-    return sameFeet && columns_ == other.columns_ && layers_ == other.layers_ &&
-           types_ == other.types_ && ends_ == other.ends_ && faceEnds_ == other.faceEnds_ &&
-           corners_ == other.corners_ && faces_ == other.faces_ && tets_ == other.tets_;
+    return sameFeet && firstNode_ == other.firstNode_ && columns_ == other.columns_ &&
+           layers_ == other.layers_ && types_ == other.types_ && ends_ == other.ends_ &&
+           faceEnds_ == other.faceEnds_ && corners_ == other.corners_ && faces_ == other.faces_ &&
+           tets_ == other.tets_;
 }
 
 }  // namespace timeseries

@@ -1,6 +1,5 @@
-// The solid cells of an unstructured grid whose points have the values, or the prisms between
-// columns of points, and how they are parted into tetrahedra, between whose corners the field is
-// linear.
+// The solid cells of an unstructured grid, or the prisms between columns of points, and how they
+// are parted into tetrahedra, between whose corners the field is linear.
 #pragma once
 
 #include <algorithm>
@@ -27,6 +26,16 @@ class SolidCells {
     // Null where no cell is a solid. Surfaces, lines and points beside them take no space, and are
     // left out, as is a cell with a corner beyond the first `points`. REQUIRES: no flaw.
     static std::shared_ptr<const SolidCells> of(const UnstructuredGrid& grid, std::uint64_t points);
+    // Of a grid whose cells have the values: each is parted about its middle, which is the point
+    // that stands for it and has its number in the file. The grid's own points, its nodes, are
+    // numbered on from the last cell: timeseries/index/node_values.h says what the field has there.
+    // Where parts of the grid meet they share the first part's; of an adaptive mesh cells of two
+    // sizes meet face to face, for the larger ones are polyhedra there.
+    static std::shared_ptr<const SolidCells> aboutMiddles(const UnstructuredGrid& grid);
+    bool haveMiddles() const { return firstNode_ > 0; }
+    // REQUIRES: haveMiddles(). The number of the first node, and the point that stands for a cell.
+    std::uint64_t firstNode() const { return firstNode_; }
+    std::uint32_t middle(std::uint64_t cell) const { return corners_[ends_[cell] - 1]; }
 
     // Three columns that stand beside each other, the least first.
     using Foot = std::array<std::uint32_t, 3>;
@@ -57,10 +66,11 @@ class SolidCells {
     std::span<const std::uint32_t> corners(std::uint64_t cell, Room& room) const {
         return feet_ ? prism(cell, room) : listOf(corners_, ends_, cell);
     }
-    // The first of them, which of a prism is the least, too.
+    // A point among them: the middle, if it has one, or the first, which of a prism is the least,
+    // too.
     std::uint32_t firstCorner(std::uint64_t cell) const {
         Room room;
-        return corners(cell, room).front();
+        return haveMiddles() ? middle(cell) : corners(cell, room).front();
     }
     // Begin to load where its corners stand, and then these: cells that are asked for by value lie
     // anywhere.
@@ -93,7 +103,13 @@ class SolidCells {
     }
 
  private:
+    static std::shared_ptr<SolidCells> ofSolids(const UnstructuredGrid& grid, std::uint64_t points,
+                                                std::uint32_t firstNode);
+    void takeAll(const UnstructuredGrid& grid, std::uint64_t points);
     void add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint64_t points);
+    void addFaces(std::span<const std::uint32_t> list);
+    template <typename Use>
+    void forEachFaceCorner(const Use& use);
     void measure(std::span<const glm::dvec3> points);
     std::span<const std::uint32_t> prism(std::uint64_t cell, Room& room) const {
         const std::uint64_t layer = cell / feet_->size();
@@ -109,6 +125,7 @@ class SolidCells {
     PageVector<std::uint8_t> types_;
     PageVector<std::uint64_t> ends_, faceEnds_;
     PageVector<std::uint32_t> corners_, faces_;
+    std::uint32_t firstNode_ = 0;
     Feet feet_;
     std::uint64_t columns_ = 0, layers_ = 0;
     glm::dvec3 longest_{0};

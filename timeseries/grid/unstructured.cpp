@@ -305,6 +305,10 @@ Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
     const auto box = boxOf(grid);
     const std::span<const glm::dvec3> between = grid.points.empty() ? std::span(places) : box;
     Mesh mesh(cells, between, shapes.spread, tell, levels);
+    if (levels.empty() && places.empty()) {
+        mesh.setSolids(SolidCells::aboutMiddles(grid));
+        if (mesh.solids()) mesh.setNodes(grid.points);
+    }
     mesh.setAbout(aboutOf(grid, MeshAbout::Points::Cells));
     return mesh;
 }

@@ -38,6 +38,7 @@ struct UnstructuredGrid {
     std::vector<std::uint64_t> faceEnds;
     std::vector<std::uint32_t> faces;
     std::size_t levels = 0;               // of an adaptive mesh, whose leaves these are; else 0
+    bool inParts = false;                 // which meet where each has points of its own
     std::optional<NoPoint> noPoint = {};  // of the corners that are kNoPoint the first, if known
 
     void keepFirst(const NoPoint& found) {

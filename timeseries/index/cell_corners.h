@@ -21,10 +21,11 @@ double finiteOr(T value, bool isMissing) {
     return isMissing || !std::isfinite(x) ? std::numeric_limits<double>::quiet_NaN() : x;
 }
 
-// Of a point of the field, as finiteOr() has it.
+// Of a point of the field, or a node (Mesh::corners()), as finiteOr() has it.
 inline double finiteValue(const Field& field, std::uint64_t point) {
     return std::visit(
         [&](const auto& values) {
+            if (point >= values.size()) return field.atNodes[point - values.size()];
             return finiteOr(values[point], !field.missing.empty() && field.missing[point]);
         },
         field.values);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -105,6 +106,8 @@ class SolidExtents {
     SolidExtents(const Field& field, const SolidCells& cells) : field_(field), cells_(cells) {}
     // As RowExtents::at().
     bool at(std::uint64_t cell, double& half, double& middle) const {
+        if (cells_.haveMiddles() && std::isnan(finiteValue(field_, cells_.middle(cell))))
+            return false;
         SolidCells::Room room;
         const auto [lo, hi] = finiteExtent(field_, cells_.corners(cell, room));
         half = 0.5 * hi - 0.5 * lo;

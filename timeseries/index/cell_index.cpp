@@ -13,6 +13,7 @@
 #include "timeseries/grid/solid_cells.h"
 #include "timeseries/grid/with_type.h"
 #include "timeseries/index/cell_extents.h"
+#include "timeseries/index/node_values.h"
 #include "timeseries/index/ordered_key.h"
 #include "timeseries/index/value_sort.h"
 
@@ -114,7 +115,7 @@ bool CellIndex::canIndex(const Grid& grid, ValueType type) {
 
 CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
                      std::vector<Interval<double>> among)
-    : field_(std::move(field)),
+    : field_(withNodeValues(std::move(field), threads)),
       among_(joined(std::move(among))),
       corners_(*field_),
       size_(corners_.size()) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "timeseries/index/cell_index.h"
+#include "timeseries/index/node_values.h"
 #include "timeseries/index/point_gradients.h"
 #include "timeseries/index/sorted_step.h"
 
@@ -43,6 +44,15 @@ class SortedStep::LazyCells {
     std::shared_ptr<const Field> fieldIfThere() const {
         const std::lock_guard lock(held_);
         return index_ ? index_->sharedField() : field_;
+    }
+    // Likewise, with what it has between its points where that is not told by these alone.
+    std::shared_ptr<const Field> fieldBetween(unsigned threads) {
+        const auto there = fieldIfThere();
+        if (!there) return nullptr;
+        auto with = withNodeValues(there, threads);
+        const std::lock_guard lock(held_);
+        if (field_ == there) field_ = with;
+        return with;
     }
     std::shared_ptr<const PointGradients> gradientsIfMade(
         const std::shared_ptr<const Mesh>& mesh) const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
 #include <span>
 #include <utility>
@@ -46,7 +47,7 @@ class Scaled {
     double between(double from, double to) const {
         return (0.5 * to - 0.5 * from) / (0.5 * range_);
     }
-    glm::dvec3 place(std::uint64_t point) const { return mesh_.position(point); }
+    glm::dvec3 place(std::uint64_t point) const { return mesh_.cornerPosition(point); }
     glm::dvec3 way(const glm::dvec3& from, const glm::dvec3& to) const {
         return shorterWay(to - from, mesh_.period()) / extent_;
     }
@@ -243,22 +244,92 @@ class SumsAtPoints {
     std::vector<Sum> sums_;
 };
 
+// What solid cells have that are parted about their middles.
+class AboutMiddles {
+ public:
+    AboutMiddles(const Scaled& scaled, const SolidCells& cells)
+        : scaled_(scaled), cells_(cells), turns_(cells.count()) {}
+
+    // The mean in it; none where its value is missing.
+    glm::dvec3 gradientIn(std::uint64_t cell) {
+        const std::uint32_t middle = cells_.middle(cell);
+        const double own = scaled_.value(middle);
+        if (std::isnan(own)) return glm::dvec3(0);
+        const glm::dvec3 at = scaled_.place(middle);
+        glm::dvec3 gradient(0);
+        double turn = 0;
+        // By Gauss: over the closed surface the field times the areas.
+        cells_.forEachTet(cell, [&](const std::array<std::uint32_t, 4>& points) {
+            std::array<glm::dvec3, 3> way;
+            double change = 0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                way[i] = scaled_.way(at, scaled_.place(points[i + 1]));
+                change += scaled_.between(own, scaled_.value(points[i + 1]));
+            }
+            const glm::dvec3 area = glm::cross(way[1] - way[0], way[2] - way[0]);
+            const double out = glm::dot(way[0], area);
+            if (!std::isfinite(out)) return;
+            gradient += (out < 0 ? -change : change) * area;
+            turn += std::abs(out);
+        });
+        turns_[cell] = turn;
+        return turn > 0 ? gradient / turn : glm::dvec3(0);
+    }
+    // After that, put(node, gradient) for the nodes from one to before another: the means of those
+    // of their cells, gradientOf(middle), by volume.
+    template <typename GradientOf, typename Put>
+    void forEachNode(std::uint64_t first, std::uint64_t end, const GradientOf& gradientOf,
+                     const Put& put) const {
+        std::vector<glm::dvec4> sums(end - first, glm::dvec4(0));
+        SolidCells::Room room;
+        for (std::uint64_t cell = 0; cell < cells_.count(); ++cell) {
+            if (!(turns_[cell] > 0)) continue;
+            const glm::dvec4 of(turns_[cell] * gradientOf(cells_.middle(cell)), turns_[cell]);
+            for (const std::uint32_t corner : cells_.corners(cell, room))
+                if (corner >= first && corner < end) sums[corner - first] += of;
+        }
+        for (std::uint64_t node = first; node < end; ++node)
+            if (const glm::dvec4& sum = sums[node - first]; sum.w > 0)
+                put(node, glm::dvec3(sum) / sum.w);
+    }
+
+ private:
+    const Scaled& scaled_;
+    const SolidCells& cells_;
+    LargeVector<double> turns_;  // of each cell six times its volume
+};
+
 }  // namespace
 
 PointGradients::PointGradients(const Field& field, const std::shared_ptr<const Mesh>& mesh,
                                unsigned threads)
-    : mesh_(mesh), stored_(mesh->count()) {
+    : mesh_(mesh), stored_(mesh->corners()) {
     const Scaled scaled(field, *mesh);
     range_ = scaled.range();
     extent_ = scaled.extent();
     if (range_ == 0) return;
     const auto parts = threadsFor(stored_.size(), std::size_t{1} << 12, std::max(threads, 1u));
-    sharing(parts, [&](unsigned k) {
-        const std::uint64_t first = stored_.size() * k / parts;
-        const std::uint64_t end = stored_.size() * (k + 1) / parts;
-        const auto put = [&](std::uint64_t point, const glm::dvec3& gradient) {
-            stored_[point] = glm::vec3(glm::clamp(gradient, -kSteepest, kSteepest) / kPerStored);
-        };
+    const auto put = [&](std::uint64_t point, const glm::dvec3& gradient) {
+        stored_[point] = glm::vec3(glm::clamp(gradient, -kSteepest, kSteepest) / kPerStored);
+    };
+    // look(first, end) of so many.
+    const auto inSuchParts = [&](std::uint64_t count, const auto& look) {
+        sharing(parts, [&](unsigned k) { look(count * k / parts, count * (k + 1) / parts); });
+    };
+    if (mesh->solids() && mesh->solids()->haveMiddles()) {
+        const SolidCells& cells = *mesh->solids();
+        AboutMiddles all(scaled, cells);
+        inSuchParts(cells.count(), [&](std::uint64_t cell, std::uint64_t end) {
+            for (; cell < end; ++cell) put(cells.middle(cell), all.gradientIn(cell));
+        });
+        const std::uint64_t first = cells.firstNode(), nodes = stored_.size() - first;
+        const auto own = [&](std::uint32_t middle) { return at(middle); };
+        inSuchParts(nodes, [&](std::uint64_t from, std::uint64_t to) {
+            all.forEachNode(first + from, first + to, own, put);
+        });
+        return;
+    }
+    inSuchParts(stored_.size(), [&](std::uint64_t first, std::uint64_t end) {
         if (mesh->hasNeighbours()) {
             const Neighbours neighbours(scaled, mesh->size());
             for (std::uint64_t i = first; i < end; ++i) put(i, neighbours.gradientAt(i));

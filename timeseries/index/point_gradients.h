@@ -18,12 +18,14 @@ namespace timeseries {
 // one place, at a pole or on an axis, what lies across that tells. Along what has no neighbours
 // nothing changes. Of points at the corners of solid cells the mean of what the field has in the
 // tetrahedra about them (SolidCells), by volume; corners without a value, which have the mean of
-// the others, count where there is nothing else. Exact for linear fields, to what floats hold of
-// places. 12 bytes a point.
+// the others, count where there is nothing else. Of cells that have the values the mean of what the
+// field has in them, and of their nodes the mean of these. Exact for linear fields, to what floats
+// hold of places. 12 bytes a corner.
 class PointGradients {
  public:
     // On so many threads; not a bit depends on them. REQUIRES: as many points as the field's, on
-    // its grid's mesh or on what a map makes of that, with neighbours or solids().
+    // its grid's mesh or on what a map makes of that, with neighbours or solids(); of nodes the
+    // field's values (withNodeValues()).
     PointGradients(const Field& field, const std::shared_ptr<const Mesh>& mesh,
                    unsigned threads = sharingThreads());
 

@@ -14,6 +14,7 @@
 #include "timeseries/index/cell_index.h"
 #include "timeseries/index/lazy_cells.h"
 #include "timeseries/index/lazy_column.h"
+#include "timeseries/index/node_values.h"
 #include "timeseries/index/ordered_key.h"
 #include "timeseries/index/step_blocks.h"
 #include "timeseries/index/step_file.h"
@@ -291,8 +292,12 @@ std::string_view SortedStep::whyNothingBetween() const {
         (compare(statistics_.min, -kTold) < 0 || compare(statistics_.max, kTold) > 0))
         return "whole numbers beyond 2^53 are told apart by points alone";
     if (const auto& mesh = grid_->mesh()) {
+        using enum MeshAbout::Points;
+        const MeshAbout::Points points = mesh->about().points;
         if (!mesh->hasNeighbours() && !mesh->solids())
-            return "the values are not those of the corners of solid cells";
+            return points == Scattered || points == Particles
+                       ? "nothing is known between points that lie by themselves"
+                       : "the values are of surfaces, or of columns on them, not of solid cells";
         if (mesh->hasNeighbours() && std::ranges::count(mesh->size(), 1u) > 1)
             return "nothing lies between points of a line";
     }
@@ -330,8 +335,8 @@ Field SortedStep::field() const {
 std::shared_ptr<const Field> SortedStep::fieldIfThere() const { return cells_->fieldIfThere(); }
 
 std::shared_ptr<const Field> SortedStep::sharedField() const {
-    auto there = fieldIfThere();
-    return there ? there : std::make_shared<const Field>(field());
+    if (auto there = cells_->fieldBetween(threads_)) return there;
+    return withNodeValues(std::make_shared<const Field>(field()), threads_);
 }
 
 Run SortedStep::finite() const {

@@ -110,7 +110,7 @@ class SortedStep {
     Field field() const;
     // The field without reading, where there are cells of it or it is held for them; else null.
     std::shared_ptr<const Field> fieldIfThere() const;
-    // That, else field().
+    // That, else field(); with its values at nodes (timeseries/index/node_values.h).
     std::shared_ptr<const Field> sharedField() const;
     // Of the source of field(); of one thread. May give nothing.
     PlanesOf openPlanes() const { return source_.planes ? source_.planes() : PlanesOf(); }

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "timeseries/grid/cell_types.h"
+#include "timeseries/grid/solid_cells.h"
+#include "timeseries/grid/unstructured.h"
 
 namespace timeseries {
 namespace {
@@ -22,6 +24,15 @@ struct Lattice {
     double along(std::size_t a, std::int64_t cell) const {
         const int c = static_cast<int>(a);
         return lo[c] + side[c] * (static_cast<double>(cell - first[a]) + 0.5);
+    }
+    // A cell's first corner; the next one's is its last.
+    glm::dvec3 corner(const std::array<std::int64_t, 3>& cell) const {
+        glm::dvec3 at;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const int c = static_cast<int>(a);
+            at[c] = lo[c] + side[c] * static_cast<double>(cell[a] - first[a]);
+        }
+        return at;
     }
 };
 
@@ -59,14 +70,52 @@ Grid uprightGrid(const AmrexPlotfile& file, const IndexBox& whole) {
 struct Leaf {
     std::uint32_t box, cell;
 };
+struct LeafBox {
+    IndexBox cells;
+    std::size_t level;
+    std::array<std::int64_t, 3> at(const std::array<std::uint64_t, 3>& size,
+                                   std::uint64_t number) const {
+        const auto along = indicesOf<std::uint64_t>(number, {size[0], size[1], size[2]});
+        std::array<std::int64_t, 3> place = cells.first;
+        for (std::size_t a = 0; a < 3; ++a)
+            place[a] += static_cast<std::int64_t>(along[static_cast<int>(a)]);
+        return place;
+    }
+};
+
+// With their corners, of which each box has its own.
+UnstructuredGrid cellsOf(std::span<const Leaf> leaves, std::span<const LeafBox> boxes,
+                         std::span<const Lattice> lattices) {
+    UnstructuredGrid grid;
+    grid.inParts = true;
+    grid.levels = lattices.size();
+    grid.types.assign(leaves.size(), kVoxelCell);
+    std::vector<std::uint32_t> numbers;  // of the box's corners: of points, where they are some
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        const LeafBox& box = boxes[leaves[i].box];
+        const auto size = box.cells.size();
+        const std::array<std::uint64_t, 3> corners{size[0] + 1, size[1] + 1, size[2] + 1};
+        if (i == 0 || leaves[i].box != leaves[i - 1].box)
+            numbers.assign(corners[0] * corners[1] * corners[2], kNoPoint);
+        const auto at = indicesOf<std::uint64_t>(leaves[i].cell, {size[0], size[1], size[2]});
+        for (std::uint64_t n = 0; n < 8; ++n) {
+            const std::uint64_t number =
+                at.x + (n & 1) +
+                corners[0] * (at.y + (n >> 1 & 1) + corners[1] * (at.z + (n >> 2)));
+            if (numbers[number] == kNoPoint) {
+                numbers[number] = static_cast<std::uint32_t>(grid.points.size());
+                grid.points.push_back(lattices[box.level].corner(box.at(corners, number)));
+            }
+            grid.corners.push_back(numbers[number]);
+        }
+        grid.ends.push_back(grid.corners.size());
+    }
+    return grid;
+}
 
 Grid gridOfLeaves(const AmrexPlotfile& file,
                   const std::vector<std::vector<std::vector<bool>>>& covered) {
-    struct Box {
-        IndexBox cells;
-        std::size_t level;
-    };
-    std::vector<Box> boxes;
+    std::vector<LeafBox> boxes;
     std::vector<Lattice> lattices;
     std::vector<Leaf> leaves;
     double area = 0;  // of a layer
@@ -87,16 +136,11 @@ Grid gridOfLeaves(const AmrexPlotfile& file,
     const double thickness = std::sqrt(area / static_cast<double>(leaves.size()));
     const auto point = [&](std::uint64_t index) {
         const Leaf& leaf = leaves[index];
-        const Box& box = boxes[leaf.box];
+        const LeafBox& box = boxes[leaf.box];
         const Lattice& lattice = lattices[box.level];
-        const auto size = box.cells.size();
-        const auto at = indicesOf<std::uint64_t>(leaf.cell, {size[0], size[1], size[2]});
-        std::array<std::int64_t, 3> cell = box.cells.first;
-        for (std::size_t a = 0; a < 3; ++a)
-            cell[a] += static_cast<std::int64_t>(at[static_cast<int>(a)]);
         glm::dvec3 side = lattice.side;
         if (file.dimensions == 2) side.z = thickness;
-        return MeshPoint{lattice.middle(cell),
+        return MeshPoint{lattice.middle(box.at(box.cells.size(), leaf.cell)),
                          {glm::dvec3(side.x, 0, 0), {0, side.y, 0}, {0, 0, side.z}}};
     };
     auto mesh = std::make_shared<Mesh>(leaves.size(), std::vector{file.lo, file.hi}, 1, point);
@@ -105,6 +149,12 @@ Grid gridOfLeaves(const AmrexPlotfile& file,
     about.cells = {{file.dimensions == 2 ? kPixelCell : kVoxelCell, leaves.size()}};
     about.levels = file.lattice.size();
     mesh->setAbout(std::move(about));
+    constexpr std::size_t kMostWithCorners = std::size_t{1} << 25;  // or these take gigabytes
+    if (file.dimensions == 3 && leaves.size() <= kMostWithCorners) {
+        const UnstructuredGrid cells = cellsOf(leaves, boxes, lattices);
+        mesh->setSolids(SolidCells::aboutMiddles(cells));
+        mesh->setNodes(cells.points);
+    }
     return Grid(spaceAxes(), std::move(mesh));
 }
 

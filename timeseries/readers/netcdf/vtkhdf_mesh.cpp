@@ -304,6 +304,7 @@ void VtkHdfLayout::addFaces(const VtkHdfStep& step, const Part& part,
 
 UnstructuredGrid VtkHdfLayout::gridOf(const VtkHdfStep& step) const {
     UnstructuredGrid grid;
+    grid.inParts = step.parts > 1;
     const std::uint64_t points = pointsOf(step);
     const auto places = placesOf(file_, expected(file_, "VTKHDF/Points"), step.points, points);
     grid.points.assign(places.begin(), places.end());

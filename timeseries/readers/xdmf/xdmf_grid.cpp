@@ -58,6 +58,7 @@ XdmfElement expected(const XdmfDocument& document, const XdmfElement& grid, cons
 XdmfGrid::XdmfGrid(const XdmfDocument& document, XdmfItems& items, const XdmfStep& step)
     : document_(document), items_(items), first_(expected(document, step.parts[0], "Topology")) {
     shape_ = shapeOf(first_);
+    cells_.inParts = step.parts.size() > 1;
     for (const XdmfElement& part : step.parts) {
         const XdmfElement topology = expected(document_, part, "Topology"),
                           geometry = expected(document_, part, "Geometry");

@@ -1,0 +1,173 @@
+// Cells of unstructured grids that have the values themselves: what lies between their middles and
+// their corners.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "render/reference/cell_pick.h"
+#include "render/reference/interval_truth.h"
+#include "render/reference/tets_on_pixels.h"
+#include "render/splat/solid_tets.h"
+#include "tests/support/bent_grids.h"
+#include "tests/support/cell_rays.h"
+#include "timeseries/index/cell_index.h"
+
+namespace render {
+namespace cells_with_values {
+namespace {
+
+using tests::CellWorld;
+using tests::drawn;
+using tests::stepOfPlaces;
+using tests::cells::kFrom;
+using tests::cells::kNan;
+using tests::cells::pathThrough;
+using timeseries::Grid;
+
+// In the grid's units.
+double volumeOf(const CellWorld& world) {
+    const SolidTets solids(world.placed, world.scene.cells->field(), world.scene.clip);
+    double volume = 0;
+    for (std::uint32_t cell = 0; cell < solids.count(); ++cell)
+        solids.forEachTet(
+            cell, nullptr, [](const auto&) { return true; },
+            [&](const auto& tet) { volume += std::abs(turnOf(tet.at)) / 6; });
+    const glm::dvec3 scale = glm::abs(world.placed.scale());
+    return volume / (scale.x * scale.y * scale.z);
+}
+
+// The box is 4 x 3 x 5. One that is missing takes all of itself away, and nothing of others.
+TEST(CellsWithValues, FillTheirGridButForThoseThatAreMissing) {
+    for (const auto& grid : tests::bentCells()) {
+        EXPECT_NEAR(
+            volumeOf(CellWorld(stepOfPlaces(grid, [](const auto& p) { return p.x; }), {"min:max"})),
+            60, 1e-4);
+        const auto isThere = [](std::uint64_t i) { return i % 3 != 1; };
+        double expected = 0;
+        for (std::uint64_t i = 0; i < grid->count(); ++i)
+            if (isThere(i)) expected += grid->mesh()->volume(i);
+        EXPECT_NEAR(
+            volumeOf(CellWorld(
+                tests::stepOf(grid, [&](std::size_t i) { return isThere(i) ? float(i) : kNan; }),
+                {"min:max"})),
+            expected, 1e-4);
+    }
+}
+
+// 6 x 5 x 7 bricks in a box: between the outermost middles a field that is linear stays so. A range
+// of it is a slab that reaches to the box's sides; ends of a range are ramps in a picture, a pixel
+// wide.
+TEST(CellsWithValues, ARangeOfALinearFieldIsASlab) {
+    for (const tests::Cut cut :
+         {tests::Cut::Hexahedra, tests::Cut::Voxels, tests::Cut::Polyhedra}) {
+        const auto grid = tests::gridOf(
+            tests::atCells(tests::bricks({7, 6, 8}, cut, [](double i, double j, double k) {
+                return glm::dvec3(i, 2 * j, 0.5 * k);
+            })));
+        const auto byX = [](const auto& p) { return p.x; };
+        for (const char* range : {"1.5:4.5", "2.1:2.7", "3~0.02"}) {
+            CellWorld world(stepOfPlaces(grid, byX), {range});
+            const auto& interval = world.scene.layers[0].cells.ranges.at(0);
+            const PlacedPoints::Box slab{world.placed.axesFromGrid({interval.lo, 0, 0}),
+                                         world.placed.axesFromGrid({interval.hi, 10, 3.5})};
+            for (const glm::dvec3& from : kFrom) {
+                const View view = tests::lookFrom(from, {40, 30}, 0.1);
+                std::vector<glm::ivec2> pixels;
+                for (int i = 0; i < 1200; ++i) pixels.emplace_back(i % 40, i / 40);
+                const std::vector<double> truth = meshWeight(
+                    world.scene, world.scene.cells->field(), view, 0, pixels, placesOfRays(1), 2);
+                double off = 0, all = 0;
+                const auto w = drawn(world.scene, view);
+                for (std::size_t i = 0; i < pixels.size(); ++i) {
+                    const double way = pathThrough(world, view, pixels[i].x, pixels[i].y, slab);
+                    ASSERT_NEAR(truth[i], way, 1e-5) << range << " from " << from.x;
+                    off += (double(w[i]) - way) * (double(w[i]) - way);
+                    all += way * way;
+                }
+                EXPECT_GT(all, 1e-3);
+                if (interval.hi - interval.lo > 0.5)  // thinner ones are less than a pixel
+                    EXPECT_LE(std::sqrt(off / all), 3e-2) << range << " from " << from.x;
+            }
+        }
+    }
+}
+
+TEST(CellsWithValues, AreFoundByWhatTheyHaveAtMiddlesAndCorners) {
+    for (const auto& grid : tests::bentCells()) {
+        std::mt19937 random(3);
+        std::uniform_real_distribution<float> any(0, 1);
+        const auto step =
+            tests::stepOf(grid, [&](std::size_t i) { return i % 7 == 0 ? kNan : any(random); });
+        const auto index = step.cells();
+        ASSERT_TRUE(index) << step.whyNoCells();
+        const auto& solids = *grid->mesh()->solids();
+        const std::vector<timeseries::Interval<double>> wanted{{0.1, 0.12}, {0.5, 0.51}};
+        std::vector<bool> listed(solids.count());
+        for (const timeseries::Run& run : index->select(wanted))
+            for (std::uint64_t i = 0; i < run.count; ++i)
+                listed.at(index->cell(run.first + i)) = true;
+        std::size_t needed = 0;
+        for (std::uint64_t cell = 0; cell < solids.count(); ++cell) {
+            const bool isThere = solids.middle(cell) % 7 != 0;
+            double lo = INFINITY, hi = -INFINITY;
+            timeseries::SolidCells::Room room;
+            for (const std::uint32_t corner : solids.corners(cell, room)) {
+                const double v = corner < grid->count()
+                                     ? std::get<std::vector<float>>(index->field().values)[corner]
+                                     : index->field().atNodes[corner - grid->count()];
+                EXPECT_FALSE(isThere && std::isnan(v));
+                lo = std::min(lo, v);
+                hi = std::max(hi, v);
+            }
+            const bool reaches = std::ranges::any_of(
+                wanted, [&](const auto& each) { return lo <= each.hi && hi >= each.lo; });
+            EXPECT_TRUE(listed[cell] || !isThere || !reaches);
+            EXPECT_TRUE(isThere || !listed[cell]);
+            needed += isThere && reaches;
+        }
+        EXPECT_GT(needed, 10u);
+    }
+}
+
+// Their corners are where a globe has the file's.
+TEST(CellsWithValues, LieOnAGlobe) {
+    auto mesh = std::make_shared<const timeseries::Mesh>(tests::atCells(tests::bricks(
+        {5, 4, 6}, tests::Cut::Hexahedra,
+        [](double i, double j, double k) { return glm::dvec3(10 + i, 40 + j, 100 * k); })));
+    const auto grid = std::make_shared<Grid>(
+        std::array{timeseries::Axis{"lon", "degrees_east", {}},
+                   timeseries::Axis{"lat", "degrees_north", {}}, timeseries::Axis{"z", "m", {}}},
+        mesh);
+    const CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.y; }), {"min:max"}, 0.5,
+                          Map::Globe);
+    ASSERT_TRUE(world.placed.globe());
+    ASSERT_EQ(world.placed.mesh()->corners(), mesh->corners());
+    for (std::uint64_t corner = 0; corner < mesh->corners(); ++corner) {
+        const glm::dvec3 at =
+            world.placed.axesFromGlobe(world.placed.globe()->at(mesh->cornerPosition(corner)));
+        EXPECT_LT(glm::distance(world.placed.cornerAlongAxes(corner), at), 1e-6);
+    }
+    EXPECT_GT(volumeOf(world), 0);
+}
+
+// What a cell has is told of the cell under the cursor.
+TEST(CellsWithValues, ACellIsSeenUnderTheCursor) {
+    for (const auto& grid : tests::bentCells()) {
+        const CellWorld world(stepOfPlaces(grid, [](const auto& p) { return p.x; }), {"1.7~0.001"},
+                              1.0);
+        const auto picked =
+            pickCell(world.scene, tests::lookFrom({3, 0.1, 0.2}, {21, 21}, 0.05), {10.5, 10.5});
+        ASSERT_TRUE(picked);
+        EXPECT_NEAR(*picked->between, 1.7, 2e-3);
+        ASSERT_LT(picked->gridIndex, grid->count());
+        EXPECT_EQ(timeseries::toDouble(picked->value),
+                  double(float(grid->position(picked->gridIndex).x)));
+        EXPECT_NEAR(timeseries::toDouble(picked->value), 1.7, 1.01);
+    }
+}
+
+}  // namespace
+}  // namespace cells_with_values
+}  // namespace render

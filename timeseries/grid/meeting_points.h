@@ -1,0 +1,47 @@
+// Points of an unstructured grid that are in one place: where its parts meet, each has its own, and
+// where cells of two sizes meet, some of the smaller ones' lie on sides of the larger.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "timeseries/grid/unstructured.h"
+
+namespace timeseries {
+
+// Places are told apart to 2^-32 of the extent of all along each coordinate. What it is made of
+// must outlive it.
+class MeetingPoints {
+ public:
+    explicit MeetingPoints(std::span<const glm::dvec3> points);
+    // Of each point the first one that is where it is. One without a place is alone.
+    const std::vector<std::uint32_t>& first() const { return first_; }
+    // The first one there, or kNoPoint.
+    std::uint32_t at(const glm::dvec3& place) const;
+
+ private:
+    using Cell = std::array<std::int64_t, 3>;
+    Cell cellOf(const glm::dvec3& place) const;
+    static std::uint64_t hashOf(const Cell& cell);
+    std::uint32_t find(std::uint64_t hash, const Cell& cell) const;
+
+    std::span<const glm::dvec3> points_;
+    glm::dvec3 middle_{0}, half_{0};
+    struct Hashed {
+        std::uint64_t hash;
+        std::uint32_t point;
+    };
+    std::vector<Hashed> hashed_;  // ascending
+    std::vector<std::uint32_t> first_;
+};
+
+// An adaptive mesh's voxels that have corners of smaller ones on their sides as polyhedra with
+// these: a face is parted where there is a point in its middle, and goes by those on its edges, for
+// as many as three levels; thirds of a side do not count. Points that meet are the first of them.
+// One that has polyhedra is as it was.
+UnstructuredGrid withHangingPoints(UnstructuredGrid grid);
+
+}  // namespace timeseries
