@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <glm/common.hpp>
@@ -75,6 +76,20 @@ std::string offeredContext() {
     return offered;
 }
 
+// Nothing is larger than the screen it opens on, whose scale it will have.
+glm::ivec2 fittingTheScreen(glm::ivec2 size) {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (monitor == nullptr) return size;
+    glm::ivec2 at, room;
+    glm::vec2 scale(1);
+    glfwGetMonitorWorkarea(monitor, &at.x, &at.y, &room.x, &room.y);
+    glfwGetMonitorContentScale(monitor, &scale.x, &scale.y);
+    for (int c = 0; c < 2; ++c)
+        if (room[c] > 0 && scale[c] > 0)
+            size[c] = std::min(size[c], static_cast<int>(static_cast<float>(room[c]) / scale[c]));
+    return size;
+}
+
 GLFWwindow* createWindow(glm::ivec2 size, const std::string& title) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
@@ -85,6 +100,7 @@ GLFWwindow* createWindow(glm::ivec2 size, const std::string& title) {
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "isochron");
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "isochron");
+    size = fittingTheScreen(size);
     GLFWwindow* window = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
     if (window == nullptr)
         throw std::runtime_error(

@@ -182,7 +182,7 @@ std::shared_ptr<const Mesh> Globe::meshOf(const Grid& grid, const std::atomic<bo
         mesh->setSolids(file->solids());
         std::vector<glm::dvec3> nodes;
         for (std::uint64_t i = file->count(); i < file->corners(); ++i)
-            nodes.push_back(at(file->cornerPosition(i)));
+            goOn(), nodes.push_back(at(file->cornerPosition(i)));
         mesh->setNodes(nodes);
         return mesh;
     };

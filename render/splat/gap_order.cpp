@@ -16,13 +16,14 @@ constexpr double kMostMet = 1 << 17;
 constexpr int kRowsOfAStrip = 8;
 constexpr double kInFront = 1 + 1e-6;  // of the near plane's depth
 constexpr std::size_t kSeenWorthAThread = 1 << 11;
-// Of a depth: where a cell is left and another one entered in one place, it is left before.
-constexpr float kSamePlace = 1e-5f;
+// Of a depth, or of how far depths differ: where a cell is left and another one entered in one
+// place, it is left before.
+constexpr double kSamePlace = 1e-5;
 
 // A ray that meets the edge between two triangles meets one of them, at least.
 constexpr float kBeside = 1e-4f;
 
-float across(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+float across(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
 }
 
@@ -39,8 +40,12 @@ void GapOrder::add(std::span<const Outer> outer, unsigned threads) {
     });
     const double picture = static_cast<double>(view_.size.x) * view_.size.y;
     for (const std::vector<Seen>& part : seen) {
-        for (const Seen& each : part)
+        for (const Seen& each : part) {
+            const auto [least, most] = std::ranges::minmax(each.perDepth);
+            least_ = std::min(least_, least);
+            most_ = std::max(most_, most);
             area_ += std::min(0.5 * std::abs(across(each.at[0], each.at[1], each.at[2])), picture);
+        }
         seen_.insert(seen_.end(), part.begin(), part.end());
     }
 }
@@ -50,13 +55,12 @@ void GapOrder::see(const Outer& outer, std::vector<Seen>& into) const {
     const double near = rays_.near * kInFront;
     const auto placeOf = [&](const glm::dvec3& inView) {
         const double perDepth = -1 / inView.z;
-        return glm::vec3(
-            glm::dvec3(rays_.centre + perDepth * rays_.focal * glm::dvec2(inView), perDepth));
+        return glm::dvec3(rays_.centre + perDepth * rays_.focal * glm::dvec2(inView), perDepth);
     };
     std::array<glm::dvec3, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
         corners[i] = glm::dvec3(view_.viewFromWorld * glm::dvec4(outer.at[i], 1));
-    std::array<glm::vec3, 4> fan;
+    std::array<glm::dvec3, 4> fan;
     std::size_t count = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec3 &at = corners[i], &next = corners[(i + 1) % 3];
@@ -65,11 +69,14 @@ void GapOrder::see(const Outer& outer, std::vector<Seen>& into) const {
             fan[count++] = placeOf(glm::mix(at, next, (near + at.z) / (at.z - next.z)));
     }
     for (std::size_t i = 2; i < count; ++i) {
-        const Seen seen{{fan[0], fan[i - 1], fan[i]}, outer.cell, outer.isEntered};
+        const Seen seen{{glm::vec2(fan[0]), glm::vec2(fan[i - 1]), glm::vec2(fan[i])},
+                        {fan[0].z, fan[i - 1].z, fan[i].z},
+                        outer.cell,
+                        outer.isEntered};
         const float twice = across(seen.at[0], seen.at[1], seen.at[2]);
         if (!std::isfinite(twice) || twice == 0) continue;
-        const auto [low, high] = std::ranges::minmax(seen.at, {}, &glm::vec3::y);
-        const auto [left, right] = std::ranges::minmax(seen.at, {}, &glm::vec3::x);
+        const auto [low, high] = std::ranges::minmax(seen.at, {}, &glm::vec2::y);
+        const auto [left, right] = std::ranges::minmax(seen.at, {}, &glm::vec2::x);
         if (high.y >= 0 && right.x >= 0 && low.y <= static_cast<float>(view_.size.y) &&
             left.x <= static_cast<float>(view_.size.x))
             into.push_back(seen);
@@ -92,7 +99,7 @@ void GapOrder::begin() {
 }
 
 std::pair<int, int> GapOrder::stripsOf(const Seen& seen) const {
-    const auto [low, high] = std::ranges::minmax(seen.at, {}, &glm::vec3::y);
+    const auto [low, high] = std::ranges::minmax(seen.at, {}, &glm::vec2::y);
     const auto stripOf = [&](float y) {
         const float rows = static_cast<float>(kRowsOfAStrip * apart_);
         return static_cast<int>(std::clamp(y / rows, 0.0f, static_cast<float>(strips_)));
@@ -104,8 +111,10 @@ std::pair<int, int> GapOrder::stripsOf(const Seen& seen) const {
 void GapOrder::meet(const Seen& seen, int firstRow, int endRow, std::vector<Met>& met) const {
     const auto& [a, b, c] = seen.at;
     const float whole = across(a, b, c), step = static_cast<float>(apart_);
-    const auto [left, right] = std::ranges::minmax(seen.at, {}, &glm::vec3::x);
-    const auto [low, high] = std::ranges::minmax(seen.at, {}, &glm::vec3::y);
+    std::array<double, 3> nearness;  // from the farthest
+    for (std::size_t i = 0; i < 3; ++i) nearness[i] = seen.perDepth[i] - least_;
+    const auto [left, right] = std::ranges::minmax(seen.at, {}, &glm::vec2::x);
+    const auto [low, high] = std::ranges::minmax(seen.at, {}, &glm::vec2::y);
     const auto rayBefore = [&](float place, int most) {  // the first that is not before
         return static_cast<int>(
             std::clamp(std::ceil(place / step - 0.5f), 0.0f, static_cast<float>(most)));
@@ -115,16 +124,17 @@ void GapOrder::meet(const Seen& seen, int firstRow, int endRow, std::vector<Met>
     endRow = std::min(endRow, rayBefore(high.y, count_.y));
     for (int y = firstRow; y < endRow; ++y)
         for (int x = firstX; x < endX; ++x) {
-            const glm::vec3 at((static_cast<float>(x) + 0.5f) * step,
-                               (static_cast<float>(y) + 0.5f) * step, 0);
+            const glm::vec2 at((static_cast<float>(x) + 0.5f) * step,
+                               (static_cast<float>(y) + 0.5f) * step);
             const float ofA = across(at, b, c) / whole, ofB = across(a, at, c) / whole;
             const float ofC = 1 - ofA - ofB;
             if (std::min({ofA, ofB, ofC}) < -kBeside) continue;
-            float nearness = ofA * a.z + ofB * b.z + ofC * c.z;
-            if (!seen.isEntered) nearness *= 1 + kSamePlace;
+            double near = ofA * nearness[0] + ofB * nearness[1] + ofC * nearness[2];
+            if (!seen.isEntered) near += kSamePlace * std::min(near + least_, most_ - least_);
             const auto ray = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(count_.x) +
                              static_cast<std::uint64_t>(x);
-            met.push_back({ray << 32 | ~std::bit_cast<std::uint32_t>(std::max(nearness, 0.0f)),
+            met.push_back({ray << 32 | ~std::bit_cast<std::uint32_t>(
+                                           std::max(static_cast<float>(near), 0.0f)),
                            seen.cell, seen.isEntered});
         }
 }

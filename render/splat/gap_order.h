@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -40,7 +41,8 @@ class GapOrder {
 
  private:
     struct Seen {
-        std::array<glm::vec3, 3> at;  // window position, and 1 / depth
+        std::array<glm::vec2, 3> at;  // window position
+        std::array<double, 3> perDepth;
         std::uint32_t cell;
         bool isEntered;
     };
@@ -58,7 +60,9 @@ class GapOrder {
     View view_;
     PixelRays rays_;
     std::vector<Seen> seen_;
-    double area_ = 0;      // of all, in pixels
+    double area_ = 0;  // of all, in pixels
+    // Of all, 1 / depth: an eye that is very far away sees depths that floats do not tell apart.
+    double least_ = std::numeric_limits<double>::infinity(), most_ = 0;
     int apart_ = 1;        // pixels from ray to ray
     glm::ivec2 count_{0};  // of rays across and up
     int strips_ = 0, strip_ = 0;

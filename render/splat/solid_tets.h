@@ -66,7 +66,7 @@ class SolidTets {
     }
     template <typename Use>
     void forEachFace(std::uint32_t cell, const Use& use) const;
-    std::uint64_t faceKeys() const { return placed_.mesh()->corners(); }
+    std::uint64_t faceKeys() const { return placed_.mesh()->corners() - cells_.firstNode(); }
     template <typename Use>
     void forEachTriangle(std::uint32_t cell, const FaceKey& key, const glm::dvec3& eye,
                          const Use& use) const;
@@ -171,7 +171,8 @@ void SolidTets::forEachSeen(const Tetrahedron& tet, unsigned seen, const glm::dv
 }
 
 // use(key, size, the place of its least point, pointAt) for those that are faces: a key is the
-// three least of its points, of which collapsed ones have some more than once.
+// three least of its points, of which collapsed ones have some more than once. No face has a
+// middle.
 template <typename Use>
 void SolidTets::forEachKey(std::uint32_t cell, const Use& use) const {
     cells_.forEachFace(cell, [&](std::size_t size, const auto& pointAt) {
@@ -179,8 +180,8 @@ void SolidTets::forEachKey(std::uint32_t cell, const Use& use) const {
         FaceKey key{kNone, kNone, kNone};
         std::size_t least = 0;
         for (std::size_t i = 0; i < size; ++i) {
-            std::uint32_t point = pointAt(i);
-            if (point < pointAt(least)) least = i;
+            auto point = static_cast<std::uint32_t>(pointAt(i) - cells_.firstNode());
+            if (pointAt(i) < pointAt(least)) least = i;
             for (std::uint32_t& kept : key) {
                 if (point == kept) break;
                 if (point < kept) std::swap(point, kept);

@@ -182,6 +182,23 @@ TEST(FaceOrder, IsOfPartsThatNoFacesJoinAsRaysMeetThem) {
     EXPECT_GT(byRays.inOrder, 2'000u);
 }
 
+// As an orthographic picture has it, which is a perspective from very far.
+TEST(FaceOrder, OfPartsIsTheSameFromVeryFar) {
+    Passed byRays;
+    for (const auto& grid : parts()) {
+        const CellWorld world = wholeOf(grid);
+        for (View view : views()) {
+            const glm::dvec3 eye = pixelRays(view).eye;
+            constexpr double kFar = 1e4;
+            view = tests::lookFrom(kFar * glm::normalize(eye), {16, 12});
+            for (int c = 0; c < 2; ++c) view.clipFromView[c][c] *= kFar / 3;
+            byRays += passed(world, view);
+        }
+    }
+    EXPECT_LE(byRays.wrong, 4u);
+    EXPECT_GT(byRays.inOrder, 1'000u);
+}
+
 // Of cells that no file should have: on each other, or of one point. All are there, and soon.
 TEST(FaceOrder, TakesNoLongerWhereVeryManyCellsShareAFace) {
     for (const bool isPoint : {false, true}) {

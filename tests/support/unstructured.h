@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "timeseries/grid/cell_types.h"
@@ -117,6 +118,14 @@ inline double volumeBetween(const timeseries::Mesh& mesh) {
             sum += std::abs(glm::dot(way(1), glm::cross(way(2), way(3)))) / 6;
         });
     return sum;
+}
+
+// How many nodes the cells of a mesh have between them, whose middles are its points.
+inline std::size_t nodesOf(const timeseries::Mesh& mesh) {
+    std::set<std::uint32_t> nodes;
+    for (std::uint64_t cell = 0; cell < mesh.solids()->count(); ++cell)
+        mesh.solids()->forEachNode(cell, [&](std::uint32_t node) { nodes.insert(node); });
+    return nodes.size();
 }
 
 inline std::shared_ptr<const timeseries::Grid> gridOf(timeseries::Mesh mesh) {

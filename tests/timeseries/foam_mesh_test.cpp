@@ -152,6 +152,7 @@ TEST(FoamMesh, ProcessorsAreOneCase) {
         EXPECT_THAT(timesOf(*reader), ElementsAre(0, 0.1));
         EXPECT_EQ(valuesOf<double>(*reader, "T", 1), (std::vector<double>{1, 2, 3}));
         EXPECT_EQ(meshAt(*reader).position(2).x, 2.5);
+        EXPECT_EQ(tests::nodesOf(meshAt(*reader)), 16u) << "where they meet";
         EXPECT_NEAR(volume(meshAt(*reader, "Tp")), 3, 1e-6);
         std::vector<double> atPoints(12, 4);
         atPoints.resize(20, 5);

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <map>
-#include <random>
 
 #include "tests/support/unstructured.h"
 #include "timeseries/index/cell_corners.h"
@@ -26,43 +24,52 @@ std::shared_ptr<const Grid> atCells(const UnstructuredGrid& grid) {
     return tests::gridOf(tests::atCells(grid));
 }
 
-// Of every cell that names a node one over the distance, of all shapes, on any number of threads.
-TEST(NodeValues, AreMeansByOneOverTheDistance) {
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> any(-1, 1);
+// Within a grid of whatever shapes, whose cells are of unequal sizes; at its sides no value is
+// beyond those of the cells there. What is missing or infinite does not count.
+TEST(NodeValues, OfALinearFieldAreItsOwn) {
+    const auto slope = [](const glm::dvec3& at) { return 3 * at.x - 2 * at.y + 0.1 * at.z; };
     for (const tests::Cut cut : tests::kCuts) {
+        // Layers are 30 thick, then 3, and cells get wider.
         const UnstructuredGrid cells =
-            tests::bricks({20, 20, 15}, cut, [](double i, double j, double k) {
-                return glm::dvec3(i + 0.2 * std::sin(j), j + 0.1 * k, 30 * k + i);
+            tests::bricks({12, 11, 10}, cut, [](double i, double j, double k) {
+                return glm::dvec3(i + 0.04 * i * i, j + 0.1 * std::sin(i),
+                                  std::max(30 * k, 3 * k + 108));
             });
         const auto grid = atCells(cells);
         const Mesh& mesh = *grid->mesh();
         ASSERT_EQ(mesh.corners(), cells.types.size() + cells.points.size());
-        std::vector<double> values(cells.types.size());
-        for (double& v : values) v = any(random);
-        values[70] = std::numeric_limits<double>::quiet_NaN();
-        values[80] = std::numeric_limits<double>::infinity();
-        std::vector<long double> sums(cells.points.size()), weights(cells.points.size());
-        for (std::size_t cell = 0; cell < values.size(); ++cell) {
-            if (!std::isfinite(values[cell])) continue;
+        std::vector<double> values(mesh.count());
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = slope(mesh.position(i));
+        values[0] = std::numeric_limits<double>::quiet_NaN();
+        values[1] = std::numeric_limits<double>::infinity();
+        std::vector<double> lo(cells.points.size(), INFINITY), hi(cells.points.size(), -INFINITY);
+        for (std::size_t cell = 2; cell < values.size(); ++cell)
             for (const std::uint32_t node : listOf(cells.corners, cells.ends, cell)) {
-                const double away = glm::distance(mesh.position(cell), cells.points[node]);
-                sums[node] += values[cell] / away;
-                weights[node] += 1 / away;
+                lo[node] = std::min(lo[node], values[cell]);
+                hi[node] = std::max(hi[node], values[cell]);
             }
-        }
         const auto with = withNodeValues(fieldOf(grid, values), 1);
         ASSERT_EQ(with->atNodes.size(), cells.points.size());
-        for (std::size_t node = 0; node < sums.size(); ++node) {
-            ASSERT_GT(weights[node], 0);
-            // A mesh's places are floats.
-            EXPECT_NEAR(with->atNodes[node], double(sums[node] / weights[node]), 1e-5);
-            EXPECT_EQ(finiteValue(*with, mesh.count() + node), with->atNodes[node]);
-            EXPECT_LT(glm::distance(mesh.cornerPosition(mesh.count() + node), cells.points[node]),
-                      1e-4);
+        for (std::size_t node = 0; node < cells.points.size(); ++node) {
+            const glm::dvec3& at = cells.points[node];
+            const double value = with->atNodes[node];
+            EXPECT_LT(glm::distance(mesh.cornerPosition(mesh.count() + node), at), 1e-4);
+            if (!(lo[node] <= hi[node])) {
+                EXPECT_TRUE(std::isnan(value)) << "of none that counts";
+                continue;
+            }
+            EXPECT_EQ(finiteValue(*with, mesh.count() + node), value);
+            EXPECT_GE(value, lo[node] - 1e-9);
+            EXPECT_LE(value, hi[node] + 1e-9);
+            const std::size_t i = node % 12, j = node / 12 % 11, k = node / 132;
+            const bool isWithin = i > 1 && j > 1 && k > 1 && i < 10 && j < 9 && k < 8;
+            EXPECT_NEAR(value, slope(at), isWithin ? 2e-3 : INFINITY) << int(cut);
         }
-        EXPECT_EQ(withNodeValues(fieldOf(grid, values), 3)->atNodes, with->atNodes);
         EXPECT_EQ(withNodeValues(with), with);
+        const auto many = withNodeValues(fieldOf(grid, values), 3);
+        for (std::size_t node = 0; node < cells.points.size(); ++node)
+            EXPECT_TRUE(many->atNodes[node] == with->atNodes[node] ||
+                        std::isnan(with->atNodes[node]));
     }
 }
 

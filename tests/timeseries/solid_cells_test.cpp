@@ -290,24 +290,22 @@ TEST(SolidCells, AboutMiddlesPartsShareTheNodesWhereTheyMeet) {
                 for (std::size_t i = 1; i <= whole.faces[at]; ++i) move(cell, parts.faces[at + i]);
         }
         ASSERT_EQ(flawOf(parts), "");
-        EXPECT_TRUE(SolidCells::aboutMiddles(parts)->joinsAs(*SolidCells::aboutMiddles(whole)));
+        EXPECT_EQ(tests::nodesOf(tests::atCells(parts)), nodes);
         for (std::uint32_t i = nodes; i < 2 * nodes; ++i) parts.points[i] *= 1 + 1e-8;
-        EXPECT_FALSE(SolidCells::aboutMiddles(parts)->joinsAs(*SolidCells::aboutMiddles(whole)));
+        EXPECT_GT(tests::nodesOf(tests::atCells(parts)), nodes + nodes / 2);
     }
 }
 
-// Of voxels of two sizes, and of a quarter of the large ones beside an edge alone, the faces that
-// meet are the same.
-TEST(SolidCells, AboutMiddlesVoxelsOfTwoSizesMeetFaceToFace) {
+void expectTwoSizesToMeet(bool areVoxels) {
     UnstructuredGrid grid;
-    grid.levels = 2;
     const auto add = [&](const glm::dvec3& at, double side) {
         const auto first = static_cast<std::uint32_t>(grid.points.size());
         for (int n = 0; n < 8; ++n)
             grid.points.push_back(at + side * glm::dvec3(n & 1, n >> 1 & 1, n >> 2));
-        addCell(
-            grid, 11,
-            {first, first + 1, first + 2, first + 3, first + 4, first + 5, first + 6, first + 7});
+        const std::uint32_t a = areVoxels ? 2 : 3, b = areVoxels ? 3 : 2;
+        addCell(grid, areVoxels ? 11 : 12,
+                {first, first + 1, first + a, first + b, first + 4, first + 5, first + 4 + a,
+                 first + 4 + b});
     };
     const double side = 1.0 / 3;
     for (int n = 0; n < 27; ++n) {
@@ -345,6 +343,58 @@ TEST(SolidCells, AboutMiddlesVoxelsOfTwoSizesMeetFaceToFace) {
         const bool isOutside = onSide(0, 0) || onSide(0, 1) || onSide(1, 0) || onSide(1, 1) ||
                                onSide(2, 0) || onSide(2, 1);
         EXPECT_EQ(times, isOutside ? 1 : 2);
+    }
+}
+
+// Of bricks of two sizes, some of the large ones beside an edge alone, the faces that meet are the
+// same; all name points of their own.
+TEST(SolidCells, AboutMiddlesBricksOfTwoSizesMeetFaceToFace) {
+    for (const bool areVoxels : {true, false}) expectTwoSizesToMeet(areVoxels);
+}
+
+// Of one that crosses itself the centroid may lie far away, and collapsed ones name nodes twice.
+TEST(SolidCells, MiddlesAreInTheirCellsAndNodesOnce) {
+    UnstructuredGrid grid = bricks({3, 3, 3}, Cut::Hexahedra, plain);
+    grid.points.emplace_back(1.05, 0, 0);
+    auto corners = std::span(grid.corners).first(8);
+    std::swap(corners[1], corners[2]);
+    corners[0] = 27;
+    const Mesh mesh = tests::atCells(grid);
+    for (int a = 0; a < 3; ++a) {
+        EXPECT_GE(mesh.position(0)[a], 0);
+        EXPECT_LE(mesh.position(0)[a], 1.05);
+        EXPECT_LE(mesh.widest()[a], 2);
+    }
+    corners[1] = corners[2];
+    const auto solids = SolidCells::aboutMiddles(grid);
+    std::vector<std::uint32_t> nodes;
+    solids->forEachNode(0, [&](std::uint32_t node) { nodes.push_back(node); });
+    EXPECT_EQ(nodes.size(), 7u);
+    EXPECT_EQ(std::ranges::count(nodes, corners[1] + 8), 1);
+    nodes.clear();
+    solids->forEachNode(1, [&](std::uint32_t node) { nodes.push_back(node); });
+    EXPECT_EQ(nodes.size(), 8u);
+}
+
+// What no cell has may lie anywhere.
+TEST(SolidCells, BoundsAreOfTheNodesThatCellsHave) {
+    UnstructuredGrid grid = bricks({3, 4, 5}, Cut::Wedges, plain);
+    grid.points.emplace_back(1e6, 0, 1e300);
+    const Mesh::Box box = tests::atCells(grid).cornersBox();
+    for (int a = 0; a < 3; ++a) {
+        EXPECT_NEAR(box.lo[a], 0, 1e-5);
+        EXPECT_NEAR(box.hi[a], 2 + a, 1e-5);
+    }
+}
+
+// Of a list of corners that goes on behind the last cell's, the rest is nobody's.
+TEST(SolidCells, AboutMiddlesCornersOfNoCellAreNobodys) {
+    for (const Cut cut : {Cut::Tetrahedra, Cut::Voxels}) {
+        const UnstructuredGrid grid = tests::bentBricks(cut);
+        UnstructuredGrid more = grid;
+        more.inParts = true;
+        for (int i = 0; i < 1000; ++i) more.corners.push_back(kNoPoint);
+        EXPECT_TRUE(SolidCells::aboutMiddles(more)->joinsAs(*SolidCells::aboutMiddles(grid)));
     }
 }
 

@@ -195,7 +195,14 @@ TEST(Unstructured, PointsOfNoCellDoNotWidenTheBox) {
         EXPECT_EQ(tests::volume(withMore, i), tests::volume(points, i));
     }
     EXPECT_EQ(withMore.about().apart, 3u);
-    EXPECT_EQ(tests::atCells(more), tests::atCells(grid));
+    const Mesh cells = tests::atCells(grid), cellsWithMore = tests::atCells(more);
+    EXPECT_EQ(cellsWithMore.lo(), cells.lo());
+    EXPECT_EQ(cellsWithMore.hi(), cells.hi());
+    EXPECT_EQ(cellsWithMore.cornersBox().hi, cells.cornersBox().hi);
+    for (std::uint64_t i = 0; i < cells.count(); ++i) {
+        EXPECT_EQ(cellsWithMore.position(i), cells.position(i));
+        EXPECT_EQ(tests::volume(cellsWithMore, i), tests::volume(cells, i));
+    }
 }
 
 // Two rectangles of 3 x 2 each: as thick as the root of 6.

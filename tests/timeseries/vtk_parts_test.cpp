@@ -125,6 +125,9 @@ TEST(VtkParts, GhostCellsAreMissing) {
     EXPECT_EQ(byPlace(folder / "parts.pvtu", "c"), byPlace(folder / "whole.vtu", "c"));
     // What is at points fills what the own cells do, once; the last four are of the ghost alone.
     const auto reader = open(folder / "parts.pvtu");
+    const auto atCells = std::ranges::find(reader->variables(), "c", &Variable::name);
+    ASSERT_NE(atCells, reader->variables().end());
+    EXPECT_EQ(tests::nodesOf(*atCells->grid->mesh()), 6u * 4) << "where they meet";
     const auto found = std::ranges::find(reader->variables(), "p", &Variable::name);
     ASSERT_NE(found, reader->variables().end());
     const Mesh& mesh = *found->grid->mesh();

@@ -79,6 +79,7 @@ TEST(VtkUnstructured, PiecesAreOneGrid) {
     EXPECT_EQ(reader->variables()[0].grid->count(), 24u);
     ASSERT_EQ(reader->variables()[1].grid->count(), 4u);
     EXPECT_NEAR(volume(*reader->variables()[1].grid), 6, 1e-6);
+    EXPECT_EQ(tests::nodesOf(*reader->variables()[1].grid->mesh()), 12u) << "where they meet";
     EXPECT_EQ(reader->variables()[1].grid->position(3), reader->variables()[1].grid->position(1));
     EXPECT_EQ(std::get<std::vector<float>>(reader->read(1, 0).values),
               (std::vector<float>{5, 6, 5, 6}));

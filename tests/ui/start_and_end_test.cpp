@@ -83,6 +83,9 @@ TEST_F(DeskStarts, WithTheMonitorsScale) {
     screen().setResource("Xft.dpi: 144");
     Driver desk(screen(), folder(), {demo().string()});
     desk.waitForTitle("pool_fire_T.nc · T");
+    // Half as large again it would not fit the screen.
+    EXPECT_LE(desk.size().x, Screen::kSize.x);
+    EXPECT_LE(desk.size().y, Screen::kSize.y);
     desk.resize({1500, 950});
     const std::string title = desk.title();
     desk.settled();

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -16,13 +17,15 @@ namespace {
 
 using Quad = std::array<std::uint32_t, 4>;
 
-// The faces of one voxel, as a polyhedron lists them.
+constexpr std::uint8_t kHexahedronCell = 12;
+
+// The faces of one brick, as a polyhedron lists them.
 class FacesWithPoints {
  public:
     FacesWithPoints(const UnstructuredGrid& grid, const MeetingPoints& places)
         : grid_(grid), places_(places) {}
 
-    // Whether it has more points than a voxel's.
+    // Whether it has more points than a brick's.
     bool take(const Quad& quad, int deep = kDeepest) {
         const std::uint32_t middle = deep > 0 ? between(quad[0], quad[2]) : kNoPoint;
         if (middle == kNoPoint) {
@@ -66,34 +69,81 @@ class FacesWithPoints {
     std::vector<std::uint32_t> list_;
 };
 
-// Of a voxel.
-float sizeOf(const UnstructuredGrid& grid, std::span<const std::uint32_t> corners) {
-    if (corners.empty()) return std::numeric_limits<float>::infinity();
-    return static_cast<float>(
-        glm::distance(grid.points[corners.back()], grid.points[corners.front()]));
+// How far a cell reaches along each coordinate.
+glm::vec3 sidesOf(const UnstructuredGrid& grid, std::span<const std::uint32_t> corners) {
+    glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
+    for (const std::uint32_t corner : corners) {
+        lo = glm::min(lo, grid.points[corner]);
+        hi = glm::max(hi, grid.points[corner]);
+    }
+    return glm::vec3(hi - lo);
+}
+
+// Cells that may have points on their sides: beside some that are half as long along a coordinate.
+std::vector<std::uint32_t> cellsBesideSmaller(const UnstructuredGrid& grid,
+                                              const std::vector<std::uint32_t>& first) {
+    constexpr float kSmaller = 0.6f;
+    std::vector<glm::vec3> shortest(grid.points.size(),
+                                    glm::vec3(std::numeric_limits<float>::infinity()));
+    const auto forEachBrick = [&](const auto& use) {
+        for (std::uint32_t cell = 0; cell < grid.types.size(); ++cell) {
+            if (grid.types[cell] != kVoxelCell && grid.types[cell] != kHexahedronCell) continue;
+            const auto corners = listOf(grid.corners, grid.ends, cell);
+            use(cell, corners, sidesOf(grid, corners));
+        }
+    };
+    forEachBrick([&](std::uint32_t, const auto& corners, const glm::vec3& sides) {
+        for (const std::uint32_t corner : corners)
+            shortest[first[corner]] = glm::min(shortest[first[corner]], sides);
+    });
+    std::vector<std::uint32_t> cells;
+    forEachBrick([&](std::uint32_t cell, const auto& corners, const glm::vec3& sides) {
+        if (std::ranges::any_of(corners, [&](std::uint32_t corner) {
+                return glm::any(glm::lessThan(shortest[first[corner]], kSmaller * sides));
+            }))
+            cells.push_back(cell);
+    });
+    return cells;
 }
 
 }  // namespace
 
-MeetingPoints::MeetingPoints(std::span<const glm::dvec3> points)
-    : points_(points), first_(points.size()) {
-    glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
-    for (const glm::dvec3& at : points) {
-        if (!isPlace(at)) continue;
-        lo = glm::min(lo, at);
-        hi = glm::max(hi, at);
+MeetingPoints::MeetingPoints(const UnstructuredGrid& grid)
+    : points_(grid.points), first_(grid.points.size()) {
+    std::vector<bool> used(points_.size());
+    // More corners are no cell's.
+    const std::uint64_t corners = grid.ends.empty() ? 0 : grid.ends.back();
+    for (std::uint64_t i = 0; i < corners; ++i) used[grid.corners[i]] = true;
+    std::uint64_t begin = 0;
+    for (const std::uint64_t end : grid.faceEnds) {
+        for (std::uint64_t at = begin + 1; at < end; at += 1 + grid.faces[at])
+            for (std::uint32_t i = 1; i <= grid.faces[at]; ++i) used[grid.faces[at + i]] = true;
+        begin = end;
     }
-    middle_ = 0.5 * lo + 0.5 * hi;
-    half_ = 0.5 * hi - 0.5 * lo;
-    hashed_.reserve(points.size());
-    for (std::uint32_t i = 0; i < points.size(); ++i)
-        if (isPlace(points[i])) hashed_.push_back({hashOf(cellOf(points[i])), i});
+    lo_ = glm::dvec3(std::numeric_limits<double>::infinity());
+    hi_ = -lo_;
+    const auto isPlaced = [&](std::uint32_t i) { return used[i] && isPlace(points_[i]); };
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+        if (!isPlaced(i)) continue;
+        lo_ = glm::min(lo_, points_[i]);
+        hi_ = glm::max(hi_, points_[i]);
+    }
+    middle_ = 0.5 * lo_ + 0.5 * hi_;
+    half_ = 0.5 * hi_ - 0.5 * lo_;
+    hashed_.reserve(points_.size());
+    for (std::uint32_t i = 0; i < points_.size(); ++i)
+        if (isPlaced(i)) hashed_.push_back({hashOf(cellOf(points_[i])), i});
     std::ranges::sort(hashed_, {}, [](const Hashed& h) { return std::pair(h.hash, h.point); });
     std::iota(first_.begin(), first_.end(), 0u);
-    for (std::size_t i = 1, begin = 0; i < hashed_.size(); ++i) {
-        if (hashed_[i].hash != hashed_[i - 1].hash) begin = i;
-        if (begin < i) first_[hashed_[i].point] = at(points[hashed_[i].point]);
+    for (std::size_t i = 1, same = 0; i < hashed_.size(); ++i) {
+        if (hashed_[i].hash != hashed_[i - 1].hash) same = i;
+        if (same < i) first_[hashed_[i].point] = at(points_[hashed_[i].point]);
     }
+}
+
+bool MeetingPoints::isWithin(const glm::dvec3& place) const {
+    return place.x >= lo_.x && place.y >= lo_.y && place.z >= lo_.z && place.x <= hi_.x &&
+           place.y <= hi_.y && place.z <= hi_.z;
 }
 
 MeetingPoints::Cell MeetingPoints::cellOf(const glm::dvec3& place) const {
@@ -117,6 +167,7 @@ std::uint64_t MeetingPoints::hashOf(const Cell& cell) {
 }
 
 std::uint32_t MeetingPoints::at(const glm::dvec3& place) const {
+    if (!isWithin(place)) return kNoPoint;
     const Cell cell = cellOf(place);
     const std::uint64_t hash = hashOf(cell);
     for (auto it = std::ranges::lower_bound(hashed_, hash, {}, &Hashed::hash);
@@ -125,42 +176,36 @@ std::uint32_t MeetingPoints::at(const glm::dvec3& place) const {
     return kNoPoint;
 }
 
-UnstructuredGrid withHangingPoints(UnstructuredGrid grid) {
-    if (!grid.faceEnds.empty()) return grid;
-    const MeetingPoints places(grid.points);
-    grid.inParts = false;
-    grid.levels = 0;
-    for (std::uint32_t& corner : grid.corners) corner = places.first()[corner];
-    // Of the smallest cell about each point.
-    std::vector<float> smallest(grid.points.size(), std::numeric_limits<float>::infinity());
-    for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
+std::optional<UnstructuredGrid> withHangingPoints(const UnstructuredGrid& grid) {
+    if (!grid.faceEnds.empty()) return std::nullopt;
+    const MeetingPoints places(grid);
+    const std::vector<std::uint32_t>& first = places.first();
+    std::map<std::uint32_t, FacesWithPoints> found;
+    for (const std::uint32_t cell : cellsBesideSmaller(grid, first)) {
         const auto corners = listOf(grid.corners, grid.ends, cell);
-        const float size = sizeOf(grid, corners);
-        for (const std::uint32_t corner : corners)
-            smallest[corner] = std::min(smallest[corner], size);
-    }
-    const CellType& voxel = *cellTypeOf(kVoxelCell);
-    constexpr float kSmaller = 0.75f;
-    for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
-        const auto corners = listOf(grid.corners, grid.ends, cell);
-        const bool mayHave = grid.types[cell] == kVoxelCell &&
-                             std::ranges::any_of(corners, [&](std::uint32_t corner) {
-                                 return smallest[corner] < kSmaller * sizeOf(grid, corners);
-                             });
-        if (mayHave) {
-            FacesWithPoints faces(grid, places);
-            bool has = false;
-            for (std::size_t i = 0; i < voxel.faces.size(); i += 4)
-                has |= faces.take({corners[voxel.faces[i]], corners[voxel.faces[i + 1]],
-                                   corners[voxel.faces[i + 2]], corners[voxel.faces[i + 3]]});
-            if (has) {
-                grid.types[cell] = kPolyhedron;
-                faces.addTo(grid.faces);
-            }
+        const CellType& type = *cellTypeOf(grid.types[cell]);
+        FacesWithPoints faces(grid, places);
+        bool has = false;
+        for (std::size_t i = 0; i < type.faces.size(); i += 4) {
+            Quad quad;
+            for (std::size_t k = 0; k < 4; ++k) quad[k] = first[corners[type.faces[i + k]]];
+            has |= faces.take(quad);
         }
-        grid.faceEnds.push_back(grid.faces.size());
+        if (has) found.emplace(cell, std::move(faces));
     }
-    return grid;
+    if (found.empty()) return std::nullopt;
+    UnstructuredGrid whole = grid;
+    whole.corners.resize(whole.ends.back());
+    for (std::uint32_t& corner : whole.corners) corner = first[corner];
+    whole.inParts = false;
+    for (std::uint32_t cell = 0; cell < whole.types.size(); ++cell) {
+        if (const auto it = found.find(cell); it != found.end()) {
+            whole.types[cell] = kPolyhedron;
+            it->second.addTo(whole.faces);
+        }
+        whole.faceEnds.push_back(whole.faces.size());
+    }
+    return whole;
 }
 
 }  // namespace timeseries

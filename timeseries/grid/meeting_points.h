@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,12 +13,12 @@
 
 namespace timeseries {
 
-// Places are told apart to 2^-32 of the extent of all along each coordinate. What it is made of
-// must outlive it.
+// Of a grid: places are told apart to 2^-32 of the extent, along each coordinate, of what cells
+// have for corners. What no cell has, or has no place, is alone. The grid must outlive it.
 class MeetingPoints {
  public:
-    explicit MeetingPoints(std::span<const glm::dvec3> points);
-    // Of each point the first one that is where it is. One without a place is alone.
+    explicit MeetingPoints(const UnstructuredGrid& grid);
+    // Of each point the first one that is where it is.
     const std::vector<std::uint32_t>& first() const { return first_; }
     // The first one there, or kNoPoint.
     std::uint32_t at(const glm::dvec3& place) const;
@@ -26,10 +27,10 @@ class MeetingPoints {
     using Cell = std::array<std::int64_t, 3>;
     Cell cellOf(const glm::dvec3& place) const;
     static std::uint64_t hashOf(const Cell& cell);
-    std::uint32_t find(std::uint64_t hash, const Cell& cell) const;
 
     std::span<const glm::dvec3> points_;
-    glm::dvec3 middle_{0}, half_{0};
+    bool isWithin(const glm::dvec3& place) const;
+    glm::dvec3 lo_{0}, hi_{0}, middle_{0}, half_{0};
     struct Hashed {
         std::uint64_t hash;
         std::uint32_t point;
@@ -38,10 +39,10 @@ class MeetingPoints {
     std::vector<std::uint32_t> first_;
 };
 
-// An adaptive mesh's voxels that have corners of smaller ones on their sides as polyhedra with
-// these: a face is parted where there is a point in its middle, and goes by those on its edges, for
-// as many as three levels; thirds of a side do not count. Points that meet are the first of them.
-// One that has polyhedra is as it was.
-UnstructuredGrid withHangingPoints(UnstructuredGrid grid);
+// The grid with voxels and hexahedra that have corners of smaller ones on their sides as polyhedra
+// with these: a face is parted where there is a point in its middle, and goes by those on its
+// edges, for as many as three levels; thirds of a side do not count. Points that meet are the first
+// of them. Nothing where there are no such cells, or where it has polyhedra.
+std::optional<UnstructuredGrid> withHangingPoints(const UnstructuredGrid& grid);
 
 }  // namespace timeseries

@@ -72,7 +72,7 @@ class Mesh {
         period_ = period;
     }
     // Likewise, after that, where the solids have middles: where their nodes lie, in the file's
-    // space. REQUIRES: no levels.
+    // space; of others none. REQUIRES: no levels.
     void setNodes(std::span<const glm::dvec3> nodes);
     // Likewise. REQUIRES: `types` of all points, or of none.
     void setAbout(MeshAbout about) { about_ = std::move(about); }
@@ -91,7 +91,7 @@ class Mesh {
         if (nodes_.empty() || corner < stored_) return position(corner);
         return origin_ + unit_ * glm::dvec3(nodes_[corner - stored_]);
     }
-    // The least and greatest of each coordinate of points and nodes.
+    // The least and greatest of each coordinate of points, and of nodes that cells have.
     struct Box {
         glm::dvec3 lo, hi;
     };

@@ -36,12 +36,16 @@ std::shared_ptr<const SolidCells> SolidCells::aboutMiddles(const UnstructuredGri
     const std::uint64_t cells = grid.types.size();
     if (cells == 0 || cells + grid.points.size() > kMostNumbers) return nullptr;
     const auto firstNode = static_cast<std::uint32_t>(cells);
-    if (grid.levels > 1)
-        if (const UnstructuredGrid whole = withHangingPoints(grid); whole.levels == 0)
-            return ofSolids(whole, whole.points.size(), firstNode);
+    // Points are told apart in a third of a second; of more only where they are likely to meet.
+    constexpr std::uint64_t kQuick = 1 << 21;
+    const bool areMany = 2 * grid.points.size() > 3 * cells;  // each cell's own, say
+    const bool mayMeet = grid.inParts || areMany || grid.points.size() <= kQuick;
+    if (grid.levels > 1 || mayMeet)
+        if (const auto whole = withHangingPoints(grid))
+            return ofSolids(*whole, whole->points.size(), firstNode);
     auto solids = ofSolids(grid, grid.points.size(), firstNode);
-    if (!solids || !grid.inParts) return solids;
-    const MeetingPoints places(grid.points);
+    if (!solids || !mayMeet) return solids;
+    const MeetingPoints places(grid);
     const std::vector<std::uint32_t>& first = places.first();
     const auto share = [&](std::uint32_t& corner) {
         if (corner >= cells) corner = solids->firstNode_ + first[corner - cells];

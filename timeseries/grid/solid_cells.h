@@ -29,11 +29,13 @@ class SolidCells {
     // Of a grid whose cells have the values: each is parted about its middle, which is the point
     // that stands for it and has its number in the file. The grid's own points, its nodes, are
     // numbered on from the last cell: timeseries/index/node_values.h says what the field has there.
-    // Where parts of the grid meet they share the first part's; of an adaptive mesh cells of two
-    // sizes meet face to face, for the larger ones are polyhedra there.
+    // Cells whose nodes are in one place share the first (but of large grids that tell of no parts,
+    // and where hardly more points than cells say the same), and where bricks of two sizes meet,
+    // they do face to face, for the larger ones are polyhedra there.
     static std::shared_ptr<const SolidCells> aboutMiddles(const UnstructuredGrid& grid);
     bool haveMiddles() const { return firstNode_ > 0; }
-    // REQUIRES: haveMiddles(). The number of the first node, and the point that stands for a cell.
+    // The number of the first node; 0 where there are none. REQUIRES of the point that stands for a
+    // cell: haveMiddles().
     std::uint64_t firstNode() const { return firstNode_; }
     std::uint32_t middle(std::uint64_t cell) const { return corners_[ends_[cell] - 1]; }
 
@@ -85,6 +87,9 @@ class SolidCells {
         asm volatile("");
         if (!feet_) __builtin_prefetch(listOf(corners_, ends_, cell).data());
     }
+    // use(node) for each that the cell has, once. REQUIRES: haveMiddles().
+    template <typename Use>
+    void forEachNode(std::uint64_t cell, const Use& use) const;
     // use(size, pointAt): a face of so many points, pointAt(i) round it.
     template <typename Use>
     void forEachFace(std::uint64_t cell, const Use& use) const;
@@ -151,6 +156,17 @@ void SolidCells::forEachFace(std::uint64_t cell, const Use& use) const {
     for (const std::uint8_t size : type.faceSizes) {
         use(std::size_t{size}, [&](std::size_t i) { return all[type.faces[at + i]]; });
         at += size;
+    }
+}
+
+template <typename Use>
+void SolidCells::forEachNode(std::uint64_t cell, const Use& use) const {
+    constexpr std::size_t kMostOfAShape = 12;  // collapsed ones have some twice
+    const auto nodes = listOf(corners_, ends_, cell);
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        const bool isAgain = nodes.size() <= kMostOfAShape + 1 &&
+                             std::ranges::find(nodes.first(i), nodes[i]) != nodes.begin() + i;
+        if (!isAgain) use(nodes[i]);
     }
 }
 

@@ -252,6 +252,38 @@ Pages<CellMoments> momentsOf(const UnstructuredGrid& grid, const UnstructuredSha
     return all;
 }
 
+// The same, but where the centroid lies beside a solid or mass would be beyond its corners, as of
+// one that crosses itself, those of a brick with corners as far apart.
+CellMoments withinCell(const UnstructuredGrid& grid, std::size_t cell, const CellMoments& of) {
+    constexpr double kRounded = 1e-6;  // of the cell
+    const CellType* const type = cellTypeOf(grid.types[cell]);
+    // Of a polyhedron other corners than its own may be listed.
+    if (!type || type->dimension != 3 || grid.types[cell] == kPolyhedron || !(of.volume > 0))
+        return of;
+    const auto corners = listOf(grid.corners, grid.ends, cell).first(type->corners);
+    const auto count = static_cast<double>(corners.size());
+    glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo, mean(0);
+    for (const std::uint32_t corner : corners) {
+        const glm::dvec3& at = grid.points[corner];
+        lo = glm::min(lo, at);
+        hi = glm::max(hi, at);
+        mean += at / count;
+    }
+    const glm::dvec3 beside = glm::max(lo - of.centroid, of.centroid - hi), side = hi - lo;
+    const double most = std::max({side.x, side.y, side.z});
+    bool isWithin = !(std::max({beside.x, beside.y, beside.z}) > kRounded * most);
+    for (int c = 0; c < 3; ++c)
+        isWithin =
+            isWithin && !(of.second[c][c] > 0.25 * side[c] * side[c] + kRounded * most * most);
+    if (isWithin) return of;
+    glm::dmat3 second(0.0);
+    for (const std::uint32_t corner : corners) {
+        const glm::dvec3 away = grid.points[corner] - mean;
+        second += glm::outerProduct(away, away) / (3 * count);
+    }
+    return {of.volume, mean, second};
+}
+
 MeshAbout aboutOf(const UnstructuredGrid& grid, MeshAbout::Points points) {
     MeshAbout about = aboutCells(points, grid.types);
     about.levels = grid.levels;
@@ -295,7 +327,7 @@ Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
         std::array<CellMoments, Mesh::kMostAtOnce> moments;
         shapes.measure(grid, first, std::span(moments).first(points.size()));
         for (std::size_t i = 0; i < points.size(); ++i) {
-            const CellMoments& of = moments[i];
+            const CellMoments of = withinCell(grid, first + i, moments[i]);
             const bool hasPlace = !places.empty() && isPlace(places[first + i]);
             points[i].at = hasPlace ? places[first + i] : of.centroid;
             setSteps(of.second, of.volume, points[i]);

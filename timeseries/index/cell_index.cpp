@@ -110,7 +110,9 @@ bool CellIndex::canIndex(const Grid& grid, ValueType type) {
     for (const std::size_t points : grid.size()) cells *= static_cast<double>(points) + 1;
     if (const SolidCells* solids = solidsOf(grid)) cells = static_cast<double>(solids->count());
     const auto size = withType(type, [](auto value) { return sizeof value; });
-    return cells * sizeof(list_[0]) + static_cast<double>(grid.count() * size) <= kMostBytes;
+    const std::uint64_t nodes = grid.mesh() ? grid.mesh()->corners() - grid.mesh()->count() : 0;
+    const auto values = static_cast<double>(grid.count() * size + nodes * sizeof(double));
+    return cells * sizeof(list_[0]) + values <= kMostBytes;
 }
 
 CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,

@@ -281,12 +281,12 @@ class AboutMiddles {
     void forEachNode(std::uint64_t first, std::uint64_t end, const GradientOf& gradientOf,
                      const Put& put) const {
         std::vector<glm::dvec4> sums(end - first, glm::dvec4(0));
-        SolidCells::Room room;
         for (std::uint64_t cell = 0; cell < cells_.count(); ++cell) {
             if (!(turns_[cell] > 0)) continue;
             const glm::dvec4 of(turns_[cell] * gradientOf(cells_.middle(cell)), turns_[cell]);
-            for (const std::uint32_t corner : cells_.corners(cell, room))
-                if (corner >= first && corner < end) sums[corner - first] += of;
+            cells_.forEachNode(cell, [&](std::uint32_t node) {
+                if (node >= first && node < end) sums[node - first] += of;
+            });
         }
         for (std::uint64_t node = first; node < end; ++node)
             if (const glm::dvec4& sum = sums[node - first]; sum.w > 0)

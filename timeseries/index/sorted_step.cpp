@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "timeseries/grid/cell_types.h"
 #include "timeseries/grid/with_type.h"
 #include "timeseries/index/cell_index.h"
 #include "timeseries/index/lazy_cells.h"
@@ -22,6 +23,21 @@
 
 namespace timeseries {
 namespace {
+
+constexpr std::string_view kTooMany = "so many cells would not fit the memory";
+
+// Of points without neighbours.
+std::string_view whyNoSolids(const MeshAbout& about) {
+    using enum MeshAbout::Points;
+    if (about.points == Scattered || about.points == Particles)
+        return "nothing is known between points that lie by themselves";
+    const auto isSolid = [](const MeshAbout::Kind& kind) {
+        const CellType* const type = cellTypeOf(kind.type);
+        return type && type->dimension == 3;
+    };
+    if (std::ranges::any_of(about.cells, isSolid)) return kTooMany;
+    return "the values are of surfaces, or of columns on them, not of solid cells";
+}
 
 // The least and the greatest of those that count.
 template <typename T, typename Counts>
@@ -292,16 +308,11 @@ std::string_view SortedStep::whyNothingBetween() const {
         (compare(statistics_.min, -kTold) < 0 || compare(statistics_.max, kTold) > 0))
         return "whole numbers beyond 2^53 are told apart by points alone";
     if (const auto& mesh = grid_->mesh()) {
-        using enum MeshAbout::Points;
-        const MeshAbout::Points points = mesh->about().points;
-        if (!mesh->hasNeighbours() && !mesh->solids())
-            return points == Scattered || points == Particles
-                       ? "nothing is known between points that lie by themselves"
-                       : "the values are of surfaces, or of columns on them, not of solid cells";
+        if (!mesh->hasNeighbours() && !mesh->solids()) return whyNoSolids(mesh->about());
         if (mesh->hasNeighbours() && std::ranges::count(mesh->size(), 1u) > 1)
             return "nothing lies between points of a line";
     }
-    return CellIndex::canIndex(*grid_, type()) ? "" : "so many cells would not fit the memory";
+    return CellIndex::canIndex(*grid_, type()) ? "" : kTooMany;
 }
 
 Field SortedStep::field() const {

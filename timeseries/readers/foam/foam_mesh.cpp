@@ -53,6 +53,7 @@ FacesOfCells facesIn(const FoamMeshFiles& files, std::uint64_t points) {
 
 FoamMesh foamMeshOf(std::span<const FoamMeshFiles> parts) {
     FoamMesh mesh;
+    mesh.grid.inParts = parts.size() > 1;
     for (const FoamMeshFiles& files : parts) {
         const std::vector<glm::dvec3> places = placesIn(files);
         FacesOfCells faces = facesIn(files, places.size());

@@ -47,7 +47,7 @@ void joinVtkCells(VtkHeader& whole, std::span<VtkHeader> parts) {
     for (const VtkHeader& part : parts)
         std::ranges::copy(part.pieces, std::back_inserter(whole.pieces));
     checkVtkCount(whole, "pieces");
-    whole.unstructured.inParts = parts.size() > 1;
+    whole.unstructured.inParts = whole.pieces.size() > 1;
     for (VtkHeader& part : parts) {
         // Before its numbers are those of all.
         if (const std::string flaw = flawOf(part.unstructured); !flaw.empty())

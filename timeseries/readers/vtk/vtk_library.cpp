@@ -285,6 +285,7 @@ VtkFrame readVtkFrame(const VtkHeader& header) {
         return found;
     });
     if (!output) failVtk(header.path, "", "expected a grid, but VTK reads none");
+    frame.unstructured.inParts = header.pieces.size() > 1;
     if (auto* grid = vtkRectilinearGrid::SafeDownCast(output))
         frame.coordinates = {numbersOf(grid->GetXCoordinates()), numbersOf(grid->GetYCoordinates()),
                              numbersOf(grid->GetZCoordinates())};
