@@ -183,7 +183,13 @@ std::shared_ptr<const Mesh> Globe::meshOf(const Grid& grid, const std::atomic<bo
         std::vector<glm::dvec3> nodes;
         for (std::uint64_t i = file->count(); i < file->corners(); ++i)
             goOn(), nodes.push_back(at(file->cornerPosition(i)));
-        mesh->setNodes(nodes);
+        Mesh::Box around{bounds.lo, bounds.hi};
+        for (const glm::dvec3& node : nodes) {
+            if (!timeseries::isPlace(node)) continue;
+            around.lo = glm::min(around.lo, node);
+            around.hi = glm::max(around.hi, node);
+        }
+        mesh->setNodes(nodes, around);
         return mesh;
     };
     try {

@@ -1,5 +1,7 @@
 #include "timeseries/grid/meeting_points.h"
 
+#include <hwy/contrib/sort/vqsort.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -111,14 +113,18 @@ std::vector<std::uint32_t> cellsBesideSmaller(const UnstructuredGrid& grid,
 MeetingPoints::MeetingPoints(const UnstructuredGrid& grid)
     : points_(grid.points), first_(grid.points.size()) {
     std::vector<bool> used(points_.size());
-    // More corners are no cell's.
+    // More corners are no cell's, and those that a polyhedron lists are not its own.
     const std::uint64_t corners = grid.ends.empty() ? 0 : grid.ends.back();
-    for (std::uint64_t i = 0; i < corners; ++i) used[grid.corners[i]] = true;
-    std::uint64_t begin = 0;
-    for (const std::uint64_t end : grid.faceEnds) {
-        for (std::uint64_t at = begin + 1; at < end; at += 1 + grid.faces[at])
-            for (std::uint32_t i = 1; i <= grid.faces[at]; ++i) used[grid.faces[at + i]] = true;
-        begin = end;
+    for (std::uint64_t i = 0; i < corners; ++i)
+        if (grid.corners[i] < used.size()) used[grid.corners[i]] = true;
+    for (std::size_t cell = 0; cell < grid.faceEnds.size(); ++cell) {
+        const auto list = listOf(grid.faces, grid.faceEnds, cell);
+        if (grid.types[cell] != kPolyhedron || list.empty()) continue;
+        std::size_t at = 1;
+        for (std::uint32_t left = list[0]; left > 0; --left) {
+            for (const std::uint32_t corner : list.subspan(at + 1, list[at])) used[corner] = true;
+            at += 1 + list[at];
+        }
     }
     lo_ = glm::dvec3(std::numeric_limits<double>::infinity());
     hi_ = -lo_;
@@ -132,12 +138,13 @@ MeetingPoints::MeetingPoints(const UnstructuredGrid& grid)
     half_ = 0.5 * hi_ - 0.5 * lo_;
     hashed_.reserve(points_.size());
     for (std::uint32_t i = 0; i < points_.size(); ++i)
-        if (isPlaced(i)) hashed_.push_back({hashOf(cellOf(points_[i])), i});
-    std::ranges::sort(hashed_, {}, [](const Hashed& h) { return std::pair(h.hash, h.point); });
+        if (isPlaced(i)) hashed_.push_back(hashOf(cellOf(points_[i])) | i);
+    hwy::Sorter()(hashed_.data(), hashed_.size(), hwy::SortAscending());
     std::iota(first_.begin(), first_.end(), 0u);
     for (std::size_t i = 1, same = 0; i < hashed_.size(); ++i) {
-        if (hashed_[i].hash != hashed_[i - 1].hash) same = i;
-        if (same < i) first_[hashed_[i].point] = at(points_[hashed_[i].point]);
+        if (hashed_[i] >> 32 != hashed_[i - 1] >> 32) same = i;
+        const auto point = static_cast<std::uint32_t>(hashed_[i]);
+        if (same < i) first_[point] = at(points_[point]);
     }
 }
 
@@ -163,16 +170,17 @@ std::uint64_t MeetingPoints::hashOf(const Cell& cell) {
         hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15u;
         hash ^= hash >> 32;
     }
-    return hash;
+    return hash << 32;
 }
 
 std::uint32_t MeetingPoints::at(const glm::dvec3& place) const {
     if (!isWithin(place)) return kNoPoint;
     const Cell cell = cellOf(place);
     const std::uint64_t hash = hashOf(cell);
-    for (auto it = std::ranges::lower_bound(hashed_, hash, {}, &Hashed::hash);
-         it != hashed_.end() && it->hash == hash; ++it)
-        if (cellOf(points_[it->point]) == cell) return it->point;
+    for (auto it = std::ranges::lower_bound(hashed_, hash);
+         it != hashed_.end() && *it >> 32 == hash >> 32; ++it)
+        if (const auto point = static_cast<std::uint32_t>(*it); cellOf(points_[point]) == cell)
+            return point;
     return kNoPoint;
 }
 
@@ -196,7 +204,8 @@ std::optional<UnstructuredGrid> withHangingPoints(const UnstructuredGrid& grid) 
     if (found.empty()) return std::nullopt;
     UnstructuredGrid whole = grid;
     whole.corners.resize(whole.ends.back());
-    for (std::uint32_t& corner : whole.corners) corner = first[corner];
+    for (std::uint32_t& corner : whole.corners)
+        if (corner < first.size()) corner = first[corner];
     whole.inParts = false;
     for (std::uint32_t cell = 0; cell < whole.types.size(); ++cell) {
         if (const auto it = found.find(cell); it != found.end()) {

@@ -26,16 +26,12 @@ class MeetingPoints {
  private:
     using Cell = std::array<std::int64_t, 3>;
     Cell cellOf(const glm::dvec3& place) const;
-    static std::uint64_t hashOf(const Cell& cell);
+    static std::uint64_t hashOf(const Cell& cell);  // in the upper half
 
     std::span<const glm::dvec3> points_;
     bool isWithin(const glm::dvec3& place) const;
     glm::dvec3 lo_{0}, hi_{0}, middle_{0}, half_{0};
-    struct Hashed {
-        std::uint64_t hash;
-        std::uint32_t point;
-    };
-    std::vector<Hashed> hashed_;  // ascending
+    std::vector<std::uint64_t> hashed_;  // ascending: a cell's hash << 32 | point
     std::vector<std::uint32_t> first_;
 };
 

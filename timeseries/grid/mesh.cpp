@@ -257,7 +257,7 @@ void Mesh::takeSums(const Sums& sums) {
     absent_ = sums.absent * levels;
 }
 
-void Mesh::setNodes(std::span<const glm::dvec3> nodes) {
+void Mesh::setNodes(std::span<const glm::dvec3> nodes, const Box& box) {
     if (nodes.empty()) return;
     constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
     constexpr double kMost = 0x1p100;  // no cell is so large
@@ -270,20 +270,7 @@ void Mesh::setNodes(std::span<const glm::dvec3> nodes) {
             nodes_[i] = isNear ? glm::vec3(at) : glm::vec3(kNowhere);
         }
     });
-    // What no cell has may lie anywhere.
-    std::vector<Bounds> bounds(threadsFor(solids_->count(), 1 << 14), Bounds{lo_, hi_});
-    const auto threads = static_cast<unsigned>(bounds.size());
-    together(threads, [&](unsigned k) {
-        Bounds own = bounds[k];
-        SolidCells::Room room;
-        const std::uint64_t cells = solids_->count();
-        for (std::uint64_t cell = cells * k / threads; cell < cells * (k + 1) / threads; ++cell)
-            for (const std::uint32_t corner : solids_->corners(cell, room))
-                if (const glm::dvec3 at = cornerPosition(corner); isPlace(at)) own.add(at);
-        bounds[k] = own;
-    });
-    for (const Bounds& other : bounds) bounds[0].add(other);
-    cornersBox_ = {bounds[0].lo, bounds[0].hi};
+    cornersBox_ = {glm::min(lo_, box.lo), glm::max(hi_, box.hi)};
 }
 
 glm::dvec3 Mesh::position(std::uint64_t index) const {

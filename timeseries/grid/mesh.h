@@ -72,8 +72,11 @@ class Mesh {
         period_ = period;
     }
     // Likewise, after that, where the solids have middles: where their nodes lie, in the file's
-    // space; of others none. REQUIRES: no levels.
-    void setNodes(std::span<const glm::dvec3> nodes);
+    // space, those that cells have in this box; of others none. REQUIRES: no levels.
+    struct Box {
+        glm::dvec3 lo, hi;
+    };
+    void setNodes(std::span<const glm::dvec3> nodes, const Box& box);
     // Likewise. REQUIRES: `types` of all points, or of none.
     void setAbout(MeshAbout about) { about_ = std::move(about); }
     const MeshAbout& about() const { return about_; }
@@ -92,9 +95,6 @@ class Mesh {
         return origin_ + unit_ * glm::dvec3(nodes_[corner - stored_]);
     }
     // The least and greatest of each coordinate of points, and of nodes that cells have.
-    struct Box {
-        glm::dvec3 lo, hi;
-    };
     Box cornersBox() const { return nodes_.empty() ? Box{lo_, hi_} : cornersBox_; }
     // The shape of the cell that the point stands for, `spread` times as wide. Zero where nothing
     // is drawn: no place, no volume, or folded, turned inside out beside most of the others.

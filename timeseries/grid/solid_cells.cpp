@@ -21,6 +21,7 @@ std::span<const std::uint32_t> solidCorners(const UnstructuredGrid& grid, std::u
     if (!type || type->dimension != 3) return {};
     const auto corners = listOf(grid.corners, grid.ends, cell).first(type->corners);
     const bool areThere =
+        points >= grid.points.size() ||
         std::ranges::all_of(corners, [&](std::uint32_t corner) { return corner < points; });
     return areThere ? corners : std::span<const std::uint32_t>();
 }
@@ -186,6 +187,20 @@ void SolidCells::add(const UnstructuredGrid& grid, std::uint64_t cell, std::uint
     faceEnds_.push_back(faces_.size());
 }
 
+std::uint64_t SolidCells::tetsOf(std::uint64_t cell) const {
+    std::uint64_t count = 0;
+    if (!haveMiddles()) {
+        forEachTet(cell, [&](const auto&) { ++count; });
+        return count;
+    }
+    if (types_[cell] != kPolyhedron) {
+        for (const std::uint8_t size : cellTypeOf(types_[cell])->faceSizes) count += size - 2u;
+        return count;
+    }
+    forEachFace(cell, [&](std::size_t size, const auto&) { count += size < 2 ? 0 : size - 2; });
+    return count;
+}
+
 void SolidCells::measure(std::span<const glm::dvec3> points) {
     const auto extentOf = [&](std::uint64_t cell) {
         glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
@@ -203,7 +218,7 @@ void SolidCells::measure(std::span<const glm::dvec3> points) {
         for (std::uint64_t cell = count() * k / threads; cell < count() * (k + 1) / threads;
              ++cell) {
             longest[k] = glm::max(longest[k], extentOf(cell));
-            forEachTet(cell, [&](const auto&) { ++tets[k]; });
+            tets[k] += tetsOf(cell);
         }
     });
     for (const glm::dvec3& of : longest) longest_ = glm::max(longest_, of);

@@ -116,6 +116,7 @@ class SolidCells {
     template <typename Use>
     void forEachFaceCorner(const Use& use);
     void measure(std::span<const glm::dvec3> points);
+    std::uint64_t tetsOf(std::uint64_t cell) const;
     std::span<const std::uint32_t> prism(std::uint64_t cell, Room& room) const {
         const std::uint64_t layer = cell / feet_->size();
         const Foot& foot = (*feet_)[cell % feet_->size()];

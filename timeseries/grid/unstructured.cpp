@@ -339,7 +339,7 @@ Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
     Mesh mesh(cells, between, shapes.spread, tell, levels);
     if (levels.empty() && places.empty()) {
         mesh.setSolids(SolidCells::aboutMiddles(grid));
-        if (mesh.solids()) mesh.setNodes(grid.points);
+        if (mesh.solids()) mesh.setNodes(grid.points, {box[0], box[1]});
     }
     mesh.setAbout(aboutOf(grid, MeshAbout::Points::Cells));
     return mesh;

@@ -153,7 +153,7 @@ Grid gridOfLeaves(const AmrexPlotfile& file,
     if (file.dimensions == 3 && leaves.size() <= kMostWithCorners) {
         const UnstructuredGrid cells = cellsOf(leaves, boxes, lattices);
         mesh->setSolids(SolidCells::aboutMiddles(cells));
-        mesh->setNodes(cells.points);
+        mesh->setNodes(cells.points, {file.lo, file.hi});
     }
     return Grid(spaceAxes(), std::move(mesh));
 }
