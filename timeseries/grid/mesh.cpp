@@ -330,8 +330,8 @@ bool operator==(const Mesh& a, const Mesh& b) {
            a.period_ == b.period_ && a.origin_ == b.origin_ && a.unit_ == b.unit_ &&
            std::ranges::equal(a.levels_, b.levels_, sameLevel) &&
            a.nodes_.size() == b.nodes_.size() && a.stored_ == b.stored_ &&
-           std::memcmp(a.nodes_.data(), b.nodes_.data(), a.nodes_.size() * sizeof(glm::vec3)) ==
-               0 &&
+           (a.nodes_.empty() || std::memcmp(a.nodes_.data(), b.nodes_.data(),
+                                            a.nodes_.size() * sizeof(glm::vec3)) == 0) &&
            std::memcmp(a.points_.data(), b.points_.data(), a.stored_ * sizeof(Mesh::Point)) == 0;
 }
 
