@@ -337,7 +337,7 @@ Mesh meshOfCells(const UnstructuredGrid& grid, const UnstructuredShapes& shapes,
     const auto box = boxOf(grid);
     const std::span<const glm::dvec3> between = grid.points.empty() ? std::span(places) : box;
     Mesh mesh(cells, between, shapes.spread, tell, levels);
-    if (levels.empty() && places.empty()) {
+    if (shapes.dimension == 3 && levels.empty() && places.empty()) {
         mesh.setSolids(SolidCells::aboutMiddles(grid));
         if (mesh.solids()) mesh.setNodes(grid.points, {box[0], box[1]});
     }
