@@ -4,15 +4,13 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <random>
 
 #include "render/reference/cell_pick.h"
 #include "render/reference/interval_truth.h"
 #include "render/reference/tets_on_pixels.h"
-#include "render/splat/solid_tets.h"
 #include "tests/support/bent_grids.h"
 #include "tests/support/cell_rays.h"
-#include "timeseries/index/cell_index.h"
+#include "tests/support/tets_of_world.h"
 
 namespace render {
 namespace cells_with_values {
@@ -21,22 +19,11 @@ namespace {
 using tests::CellWorld;
 using tests::drawn;
 using tests::stepOfPlaces;
+using tests::volumeOf;
 using tests::cells::kFrom;
 using tests::cells::kNan;
 using tests::cells::pathThrough;
 using timeseries::Grid;
-
-// In the grid's units.
-double volumeOf(const CellWorld& world) {
-    const SolidTets solids(world.placed, world.scene.cells->field(), world.scene.clip);
-    double volume = 0;
-    for (std::uint32_t cell = 0; cell < solids.count(); ++cell)
-        solids.forEachTet(
-            cell, nullptr, [](const auto&) { return true; },
-            [&](const auto& tet) { volume += std::abs(turnOf(tet.at)) / 6; });
-    const glm::dvec3 scale = glm::abs(world.placed.scale());
-    return volume / (scale.x * scale.y * scale.z);
-}
 
 // The box is 4 x 3 x 5. One that is missing takes all of itself away, and nothing of others.
 TEST(CellsWithValues, FillTheirGridButForThoseThatAreMissing) {
@@ -91,43 +78,6 @@ TEST(CellsWithValues, ARangeOfALinearFieldIsASlab) {
                 EXPECT_LE(std::sqrt(off / all), isWide ? 3e-2 : 1.0) << range << " from " << from.x;
             }
         }
-    }
-}
-
-TEST(CellsWithValues, AreFoundByWhatTheyHaveAtMiddlesAndCorners) {
-    for (const auto& grid : tests::bentCells()) {
-        std::mt19937 random(3);
-        std::uniform_real_distribution<float> any(0, 1);
-        const auto step =
-            tests::stepOf(grid, [&](std::size_t i) { return i % 7 == 0 ? kNan : any(random); });
-        const auto index = step.cells();
-        ASSERT_TRUE(index) << step.whyNoCells();
-        const auto& solids = *grid->mesh()->solids();
-        const std::vector<timeseries::Interval<double>> wanted{{0.1, 0.12}, {0.5, 0.51}};
-        std::vector<bool> listed(solids.count());
-        for (const timeseries::Run& run : index->select(wanted))
-            for (std::uint64_t i = 0; i < run.count; ++i)
-                listed.at(index->cell(run.first + i)) = true;
-        std::size_t needed = 0;
-        for (std::uint64_t cell = 0; cell < solids.count(); ++cell) {
-            const bool isThere = solids.middle(cell) % 7 != 0;
-            double lo = INFINITY, hi = -INFINITY;
-            timeseries::SolidCells::Room room;
-            for (const std::uint32_t corner : solids.corners(cell, room)) {
-                const double v = corner < grid->count()
-                                     ? std::get<std::vector<float>>(index->field().values)[corner]
-                                     : index->field().atNodes[corner - grid->count()];
-                EXPECT_FALSE(isThere && std::isnan(v));
-                lo = std::min(lo, v);
-                hi = std::max(hi, v);
-            }
-            const bool reaches = std::ranges::any_of(
-                wanted, [&](const auto& each) { return lo <= each.hi && hi >= each.lo; });
-            EXPECT_TRUE(listed[cell] || !isThere || !reaches);
-            EXPECT_TRUE(isThere || !listed[cell]);
-            needed += isThere && reaches;
-        }
-        EXPECT_GT(needed, 10u);
     }
 }
 

@@ -18,6 +18,7 @@
 #include "tests/support/cell_worlds.h"
 #include "tests/support/lon_lat_belt.h"
 #include "tests/support/meshes.h"
+#include "tests/support/order_on_rays.h"
 #include "tests/support/unstructured.h"
 
 namespace render {
@@ -26,6 +27,11 @@ namespace {
 
 using tests::CellWorld;
 using tests::Cut;
+using tests::listed;
+using tests::Passed;
+using tests::passed;
+using tests::views;
+using tests::wholeOf;
 using timeseries::Grid;
 
 // Thin steps beside thick ones, all leaning: every face is flat.
@@ -36,62 +42,6 @@ glm::dvec3 flatFaced(double i, double j, double k) {
 
 std::shared_ptr<const Grid> solids(Cut cut, const auto& place) {
     return tests::gridOf(tests::atPoints(tests::bricks({6, 6, 5}, cut, place)));
-}
-
-std::vector<CellOfLayer> listed(const Scene& scene, const View& view, unsigned threads = 2,
-                                std::uint64_t slice = tests::kAllCells) {
-    const CellRank rank(scene, view);
-    CellList list(scene, Channels::Over, 0, &rank, threads);
-    while (!list.done()) list.goOn(slice);
-    return {list.cells().begin(), list.cells().end()};
-}
-
-constexpr double kTouched = 1e-4;  // of a ray along an edge; more than GapOrder takes for one place
-
-struct Passed {
-    std::size_t inOrder = 0, wrong = 0;
-
-    Passed& operator+=(const Passed& more) {
-        inOrder += more.inOrder;
-        wrong += more.wrong;
-        return *this;
-    }
-};
-// Of neighbours along the rays through a picture's pixels.
-Passed passed(const CellWorld& world, const View& view) {
-    const auto list = listed(world.scene, view);
-    std::vector<std::size_t> places(world.scene.placed.isMesh() ? 100'000 : 0);
-    for (std::size_t at = 0; at < list.size(); ++at) places.at(list[at].cell) = at;
-    std::vector<glm::ivec2> pixels;
-    for (int y = 0; y < view.size.y; ++y)
-        for (int x = 0; x < view.size.x; ++x) pixels.emplace_back(x, y);
-    std::vector<std::vector<PartInLayer>> rays(pixels.size());
-    addPartsOnRays(world.scene, world.scene.cells->field(), view, pixels, 2, rays);
-    Passed sum;
-    for (auto& parts : rays) {
-        std::erase_if(parts, [](const auto& p) { return p.part.to - p.part.from < kTouched; });
-        orderAlongRay(parts);
-        for (std::size_t i = 1; i < parts.size(); ++i)
-            ++(places[parts[i - 1].cell] <= places[parts[i].cell] ? sum.inOrder : sum.wrong);
-    }
-    return sum;
-}
-
-CellWorld wholeOf(const std::shared_ptr<const Grid>& grid) {
-    return {tests::stepOfPlaces(grid, [](const auto& p) { return p.x + 0.3 * p.y; }), {"min:max"}};
-}
-
-// From far away, beside and inside.
-std::vector<View> views() {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> side(-1, 1);
-    std::vector<View> all;
-    for (int i = 0; i < 9; ++i) {
-        const double away = std::array{0.3, 1.2, 4.0}[static_cast<std::size_t>(i) % 3];
-        all.push_back(
-            tests::lookFrom(away * glm::dvec3(side(random), side(random), side(random)), {16, 12}));
-    }
-    return all;
 }
 
 void expectInOrder(CellWorld world) {
@@ -127,76 +77,6 @@ TEST(FaceOrder, KnowsTheFacesOfCollapsedCells) {
                        {at(a), at(a), at(b), at(c), at(a + 3), at(a + 3), at(b + 3), at(c + 3)});
     }
     expectInOrder(wholeOf(tests::gridOf(tests::atPoints(collapsed))));
-}
-
-void addBox(timeseries::UnstructuredGrid& grid, const glm::dvec3& lo, const glm::dvec3& hi) {
-    const auto first = static_cast<std::uint32_t>(grid.points.size());
-    for (unsigned c = 0; c < 8; ++c)
-        grid.points.push_back({c & 1 ? hi.x : lo.x, c & 2 ? hi.y : lo.y, c & 4 ? hi.z : lo.z});
-    tests::addCell(
-        grid, 11,
-        {first, first + 1, first + 2, first + 3, first + 4, first + 5, first + 6, first + 7});
-}
-
-// Parts that no face joins: boxes on a plate, sheets of cells of several sizes, and slats.
-std::vector<std::shared_ptr<const Grid>> parts() {
-    timeseries::UnstructuredGrid boxes, sheets, slats;
-    addBox(boxes, {0, 0, 0}, {10, 10, 1});
-    for (int i = 0; i < 25; ++i) {
-        const glm::dvec3 at(2 * (i % 5) + 0.7, 2 * (i / 5) + 0.7, 1);
-        addBox(boxes, at, at + glm::dvec3(0.6, 0.6, 0.6));
-    }
-    for (int k = 0; k < 3; ++k) {
-        const int cells = std::array{1, 7, 3}[static_cast<std::size_t>(k)];
-        const double side = 6.0 / cells;
-        for (int i = 0; i < cells * cells; ++i) {
-            const glm::dvec3 at(side * (i % cells), side * (i / cells), 0.3 * k);
-            addBox(sheets, at, at + glm::dvec3(side, side, 0.1));
-        }
-    }
-    for (int i = 0; i < 8; ++i) addBox(slats, {i, -0.5 * i, 0}, {i + 0.2, 9 - 2 * (i % 3), 2});
-    return {tests::gridOf(tests::atPoints(boxes)), tests::gridOf(tests::atPoints(sheets)),
-            tests::gridOf(tests::atPoints(slats))};
-}
-
-// All but a few of thousands, where a ray passes where two parts touch.
-TEST(FaceOrder, IsOfPartsThatNoFacesJoinAsRaysMeetThem) {
-    Passed byRays, byMiddles;
-    for (const auto& grid : parts()) {
-        CellWorld world = wholeOf(grid);
-        for (const View& view : views()) {
-            const auto list = listed(world.scene, view);
-            for (const auto& other :
-                 {listed(world.scene, view, 1), listed(world.scene, view, 3, 5)})
-                EXPECT_TRUE(
-                    std::ranges::equal(list, other, {}, &CellOfLayer::cell, &CellOfLayer::cell));
-            for (const bool isByMiddles : {false, true}) {
-                world.scene.byMiddles = isByMiddles;
-                (isByMiddles ? byMiddles : byRays) += passed(world, view);
-            }
-            world.scene.byMiddles = false;
-        }
-    }
-    EXPECT_GT(byMiddles.wrong, 100u) << "this asks for nothing";
-    EXPECT_LE(byRays.wrong, 2u);
-    EXPECT_GT(byRays.inOrder, 2'000u);
-}
-
-// As an orthographic picture has it, which is a perspective from very far.
-TEST(FaceOrder, OfPartsIsTheSameFromVeryFar) {
-    Passed byRays;
-    for (const auto& grid : parts()) {
-        const CellWorld world = wholeOf(grid);
-        for (View view : views()) {
-            const glm::dvec3 eye = pixelRays(view).eye;
-            constexpr double kFar = 1e4;
-            view = tests::lookFrom(kFar * glm::normalize(eye), {16, 12});
-            for (int c = 0; c < 2; ++c) view.clipFromView[c][c] *= kFar / 3;
-            byRays += passed(world, view);
-        }
-    }
-    EXPECT_LE(byRays.wrong, 4u);
-    EXPECT_GT(byRays.inOrder, 1'000u);
 }
 
 // Of cells that no file should have: on each other, or of one point. All are there, and soon.

@@ -1,12 +1,16 @@
 // Unstructured grids of a lattice of bricks, cut into other cells.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <numeric>
+#include <random>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "timeseries/grid/cell_types.h"
 #include "timeseries/grid/grid.h"
@@ -79,6 +83,23 @@ timeseries::UnstructuredGrid bricks(std::array<std::uint32_t, 3> size, Cut cut,
                 }
             }
     return grid;
+}
+
+// The same cells of points that are numbered otherwise.
+inline timeseries::UnstructuredGrid renumbered(const timeseries::UnstructuredGrid& grid,
+                                               std::mt19937& random) {
+    std::vector<std::uint32_t> to(grid.points.size());
+    std::iota(to.begin(), to.end(), 0u);
+    std::ranges::shuffle(to, random);
+    timeseries::UnstructuredGrid out = grid;
+    for (std::size_t i = 0; i < to.size(); ++i) out.points[to[i]] = grid.points[i];
+    for (std::uint32_t& corner : out.corners) corner = to[corner];
+    for (std::size_t cell = 0; cell < grid.faceEnds.size(); ++cell)
+        for (std::size_t at = (cell == 0 ? 0 : grid.faceEnds[cell - 1]) + 1;
+             at < grid.faceEnds[cell]; at += 1 + grid.faces[at])
+            for (std::size_t i = 1; i <= grid.faces[at]; ++i)
+                out.faces[at + i] = to[grid.faces[at + i]];
+    return out;
 }
 
 // Bent inside a box of 4 x 3 x 5, whose sides stay flat.

@@ -19,8 +19,6 @@ namespace {
 
 using Quad = std::array<std::uint32_t, 4>;
 
-constexpr std::uint8_t kHexahedronCell = 12;
-
 // The faces of one brick, as a polyhedron lists them.
 class FacesWithPoints {
  public:
@@ -89,7 +87,9 @@ std::vector<std::uint32_t> cellsBesideSmaller(const UnstructuredGrid& grid,
                                     glm::vec3(std::numeric_limits<float>::infinity()));
     const auto forEachBrick = [&](const auto& use) {
         for (std::uint32_t cell = 0; cell < grid.types.size(); ++cell) {
-            if (grid.types[cell] != kVoxelCell && grid.types[cell] != kHexahedronCell) continue;
+            const CellType* const type = cellTypeOf(grid.types[cell]);
+            const bool isBrick = type && type->isBrick && type->corners == 8 && !type->isCurved;
+            if (!isBrick) continue;
             const auto corners = listOf(grid.corners, grid.ends, cell);
             use(cell, corners, sidesOf(grid, corners));
         }
@@ -184,9 +184,9 @@ std::uint32_t MeetingPoints::at(const glm::dvec3& place) const {
     return kNoPoint;
 }
 
-std::optional<UnstructuredGrid> withHangingPoints(const UnstructuredGrid& grid) {
+std::optional<UnstructuredGrid> withHangingPoints(const UnstructuredGrid& grid,
+                                                  const MeetingPoints& places) {
     if (!grid.faceEnds.empty()) return std::nullopt;
-    const MeetingPoints places(grid);
     const std::vector<std::uint32_t>& first = places.first();
     std::map<std::uint32_t, FacesWithPoints> found;
     for (const std::uint32_t cell : cellsBesideSmaller(grid, first)) {
@@ -203,10 +203,6 @@ std::optional<UnstructuredGrid> withHangingPoints(const UnstructuredGrid& grid) 
     }
     if (found.empty()) return std::nullopt;
     UnstructuredGrid whole = grid;
-    whole.corners.resize(whole.ends.back());
-    for (std::uint32_t& corner : whole.corners)
-        if (corner < first.size()) corner = first[corner];
-    whole.inParts = false;
     for (std::uint32_t cell = 0; cell < whole.types.size(); ++cell) {
         if (const auto it = found.find(cell); it != found.end()) {
             whole.types[cell] = kPolyhedron;

@@ -37,8 +37,9 @@ class MeetingPoints {
 
 // The grid with voxels and hexahedra that have corners of smaller ones on their sides as polyhedra
 // with these: a face is parted where there is a point in its middle, and goes by those on its
-// edges, for as many as three levels; thirds of a side do not count. Points that meet are the first
-// of them. Nothing where there are no such cells, or where it has polyhedra.
-std::optional<UnstructuredGrid> withHangingPoints(const UnstructuredGrid& grid);
+// edges, for as many as three levels; thirds of a side do not count. Nothing where there are no
+// such cells, or where it has polyhedra. `places` are those of its points.
+std::optional<UnstructuredGrid> withHangingPoints(const UnstructuredGrid& grid,
+                                                  const MeetingPoints& places);
 
 }  // namespace timeseries

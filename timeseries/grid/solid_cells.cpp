@@ -36,20 +36,18 @@ std::shared_ptr<const SolidCells> SolidCells::of(const UnstructuredGrid& grid,
 std::shared_ptr<const SolidCells> SolidCells::aboutMiddles(const UnstructuredGrid& grid) {
     const std::uint64_t cells = grid.types.size();
     if (cells == 0 || cells + grid.points.size() > kMostNumbers) return nullptr;
-    const auto firstNode = static_cast<std::uint32_t>(cells);
     // Points are told apart in a third of a second; of more only where they are likely to meet.
     constexpr std::uint64_t kQuick = 1 << 21;
     const bool areMany = 2 * grid.points.size() > 3 * cells;  // each cell's own, say
-    const bool mayMeet = grid.inParts || areMany || grid.points.size() <= kQuick;
-    if (grid.levels > 1 || mayMeet)
-        if (const auto whole = withHangingPoints(grid))
-            return ofSolids(*whole, whole->points.size(), firstNode);
-    auto solids = ofSolids(grid, grid.points.size(), firstNode);
-    if (!solids || !mayMeet) return solids;
+    const auto firstNode = static_cast<std::uint32_t>(cells);
+    if (!grid.inParts && !areMany && grid.points.size() > kQuick)
+        return ofSolids(grid, grid.points.size(), firstNode);
     const MeetingPoints places(grid);
-    const std::vector<std::uint32_t>& first = places.first();
+    const auto whole = withHangingPoints(grid, places);
+    const auto solids = ofSolids(whole ? *whole : grid, grid.points.size(), firstNode);
+    if (!solids) return nullptr;
     const auto share = [&](std::uint32_t& corner) {
-        if (corner >= cells) corner = solids->firstNode_ + first[corner - cells];
+        if (corner >= firstNode) corner = firstNode + places.first()[corner - firstNode];
     };
     std::ranges::for_each(solids->corners_, share);
     solids->forEachFaceCorner(share);

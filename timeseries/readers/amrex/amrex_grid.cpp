@@ -88,7 +88,6 @@ UnstructuredGrid cellsOf(std::span<const Leaf> leaves, std::span<const LeafBox> 
                          std::span<const Lattice> lattices) {
     UnstructuredGrid grid;
     grid.inParts = true;
-    grid.levels = lattices.size();
     grid.types.assign(leaves.size(), kVoxelCell);
     std::vector<std::uint32_t> numbers;  // of the box's corners: of points, where they are some
     for (std::size_t i = 0; i < leaves.size(); ++i) {
