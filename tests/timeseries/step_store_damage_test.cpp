@@ -13,6 +13,7 @@
 
 #include "tests/support/rounds.h"
 #include "tests/support/step_stores.h"
+#include "timeseries/series/replaced_file.h"
 #include "timeseries/series/whole_file.h"
 
 namespace timeseries {
@@ -162,6 +163,17 @@ TEST_F(StepStores, ManyWritersAndReadersOfOneStepAllHaveIt) {
     users.clear();
     EXPECT_THAT(store->takeNotes(), IsEmpty());
     EXPECT_LE(files(), 1u);
+}
+
+TEST(WholeFile, TakesTheNameOfAFileThatIsRemovedMeanwhile) {
+    const fs::path path = tests::freshFolder() / "a";
+    std::jthread others([&](const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+            tests::writeBytes(path, "");
+            fs::remove(path);
+        }
+    });
+    for (int i = 0; i < 20'000; ++i) ASSERT_EQ(ReplacedFile(path).refusal, 0) << i;
 }
 
 TEST(WholeFile, LeavesNothingUnlessItIsFinished) {

@@ -17,8 +17,10 @@ ReplacedFile::ReplacedFile(const fs::path& name) : target(name) {
         if (auto led = fs::canonical(name, none); !none) target = std::move(led);
     struct stat there {};
     if (::stat(target.c_str(), &there) != 0) return;
+    const int failed = ::access(target.c_str(), W_OK) == 0 ? 0 : errno;
+    if (failed == ENOENT) return;  // meanwhile it has been removed
     mode = there.st_mode;
-    if (::access(target.c_str(), W_OK) != 0) refusal = errno;
+    refusal = failed;
 }
 
 bool ReplacedFile::isFile() const { return !mode || S_ISREG(*mode); }
