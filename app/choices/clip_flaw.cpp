@@ -11,9 +11,7 @@ std::string clipFlaw(const ClipBox& clip, const timeseries::Grid& grid) {
         const auto along = static_cast<std::size_t>(a);
         // A mesh has points anywhere between its ends, or so it is taken; one that moves, in the
         // box of another step, where it is.
-        const auto [least, most] =
-            grid.ofOneStep() ? timeseries::Grid::Ends{grid.mesh()->lo()[a], grid.mesh()->hi()[a]}
-                             : grid.ends(along);
+        const auto [least, most] = grid.ofOneStep() ? grid.mesh()->ends(a) : grid.ends(along);
         const bool isMet = grid.mesh()
                                ? clip.lo[a] <= most && least <= clip.hi[a]
                                : grid.placesWithin(along, clip.lo[a], clip.hi[a]).has_value();

@@ -127,6 +127,24 @@ Extent typedSide(std::string_view text) {
 
 bool isBounded(const Bound& bound) { return std::isfinite(timeseries::toDouble(bound.value)); }
 
+// What of these ranges is in none of the others.
+RangeSet without(RangeSet ranges, const RangeSet& others) {
+    const auto beside = [](const Bound& end) { return Bound{end.value, !end.open}; };
+    const auto inner = [](const Bound& a, const Bound& b, bool isLow) {
+        const auto order = timeseries::compare(a.value, b.value);
+        return (isLow ? order > 0 : order < 0) || (order == 0 && a.open) ? a : b;
+    };
+    for (const Range& other : others.ranges()) {
+        std::vector<Range> parts;
+        for (const Range& range : ranges.ranges()) {
+            parts.push_back({range.lo, inner(range.hi, beside(other.lo), false)});
+            parts.push_back({inner(range.lo, beside(other.hi), true), range.hi});
+        }
+        ranges = RangeSet(std::move(parts));
+    }
+    return ranges;
+}
+
 }  // namespace
 
 RangeSet withEnd(const RangeSet& ranges, std::size_t range, End end, double value,
@@ -265,18 +283,14 @@ RangeSet newRanges(const Explorer& explorer, const SortedStep& step) {
                                     "45 % : 55 %", "70 % : 80 %", "20 % : 30 %", "80 % : 95 %",
                                     "5 % : 20 %",  "55 % : 70 %", "30 % : 45 %"};
     if (step.size() == 0) return RangeSet::everything();
-    std::vector<RangeSet> taken;
-    for (const LayerChoice& layer : explorer.layers) taken.push_back(step.keptPart(layer.ranges));
-    const std::uint64_t before = step.count(timeseries::unionOf(taken));
-    const auto addsPoints = [&](const RangeSet& ranges) {
-        std::vector<RangeSet> all = taken;
-        all.push_back(ranges);
-        return step.count(timeseries::unionOf(all)) > before;
-    };
-    std::vector<RangeSet> offered;
-    for (const char* share : kShares) offered.push_back(parseSelection(share, step));
-    if (const auto found = std::ranges::find_if(offered, addsPoints); found != offered.end())
-        return *found;
+    std::vector<RangeSet> taken, offered;
+    for (const LayerChoice& layer : explorer.layers) taken.push_back(layer.ranges);
+    const RangeSet all = timeseries::unionOf(taken);
+    for (const char* share : kShares) {
+        offered.push_back(parseSelection(share, step));
+        RangeSet apart = without(offered.back(), all);
+        if (step.count(step.keptPart(apart)) > 0) return apart;
+    }
     const auto isOther = [&](const RangeSet& ranges) {
         return std::ranges::find(taken, ranges) == taken.end();
     };

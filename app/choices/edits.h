@@ -62,8 +62,8 @@ int clipDigits(const std::optional<ClipBox>& clip, const timeseries::Grid& grid,
 // The layer at this place taken away. The last one leaves none: no first choice takes its place.
 void removeLayer(Explorer& explorer, std::size_t layer);
 // What a layer that is added to these is to show: values at the end of the data, or else among
-// them, of which a point is in no layer yet, hidden ones included; other ranges than the layers'
-// where every point is in one.
+// them, but for those of a layer, hidden ones included; other ranges than the layers' where every
+// point is in one.
 timeseries::RangeSet newRanges(const Explorer& explorer, const timeseries::SortedStep& step);
 // A new layer, last; its colour is the next that no layer has (constant colours by place, as for
 // several --range), its opacity that of a lump of so many points (opacityFor). Layers that were

@@ -173,9 +173,13 @@ double opacityFor(std::uint64_t selectedPoints) {
 }
 
 double opacityFor(std::uint64_t selectedPoints, const timeseries::Grid& grid) {
-    const bool isSheet = std::ranges::any_of(grid.axes(), [](const timeseries::Axis& axis) {
+    bool isSheet = std::ranges::any_of(grid.axes(), [](const timeseries::Axis& axis) {
         return axis.coordinates.front() == axis.coordinates.back();
     });
+    // One layer of solid cells has the extent of these, their middles what rounding leaves.
+    const auto& mesh = grid.mesh();
+    for (int a = 0; a < 3 && mesh && mesh->corners() > mesh->count(); ++a)
+        isSheet = isSheet || mesh->hi()[a] - mesh->lo()[a] <= 1e-6 * mesh->widest()[a];
     return opacityFor(isSheet ? 1 : selectedPoints);
 }
 

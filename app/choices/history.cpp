@@ -16,6 +16,11 @@ bool sweepsAlike(const Explorer& a, const Explorer& b) {
 
 }  // namespace
 
+void keepAcrossUndo(Explorer& state, const Explorer& left) {
+    state.size = left.size;
+    if (sweepsAlike(state, left)) state.play.tick = left.play.tick;
+}
+
 History::History(Explorer start) { states_.push_back(std::move(start)); }
 
 void History::edit(Explorer next, std::string_view gesture) {
@@ -50,8 +55,7 @@ void History::goTo(std::size_t at) {
     endGesture();
     const Explorer& left = now();
     at_ = at;
-    states_[at_].size = left.size;
-    if (sweepsAlike(states_[at_], left)) states_[at_].play.tick = left.play.tick;
+    keepAcrossUndo(states_[at_], left);
 }
 
 }  // namespace app

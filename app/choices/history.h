@@ -10,6 +10,10 @@
 
 namespace app {
 
+// What undo leaves as it is: the size, and where the window of a sweep stands (play.tick) while it
+// is the same sweep of the same variable.
+void keepAcrossUndo(Explorer& state, const Explorer& left);
+
 // Keeps the last kSteps states that a user can go back to.
 class History {
  public:
@@ -34,8 +38,7 @@ class History {
 
     bool canUndo() const { return at_ > 0; }
     bool canRedo() const { return at_ + 1 < states_.size(); }
-    // REQUIRES: canUndo(), canRedo(). The size is not taken back (Explorer::size), nor where the
-    // window of a sweep stands (play.tick) while it is the same sweep of the same variable.
+    // REQUIRES: canUndo(), canRedo(). As keepAcrossUndo().
     void undo();
     void redo();
 

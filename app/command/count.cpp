@@ -33,29 +33,32 @@ struct Row {
     }
 };
 
-// JSON has no infinities and no NaN: unbounded ends and absent values are null.
+// JSON has no infinities and no NaN: absent values are null, infinite ones, which are counted,
+// text.
 ordered_json number(const Number& n) {
     return std::visit(
         [](auto x) -> ordered_json {
-            if constexpr (std::is_same_v<decltype(x), double>)
-                if (!std::isfinite(x)) return nullptr;
+            if constexpr (std::is_same_v<decltype(x), double>) {
+                if (std::isinf(x)) return x > 0 ? "inf" : "-inf";
+                if (std::isnan(x)) return nullptr;
+            }
             return x;
         },
         n);
 }
 
-// Infinite values are counted, and told from none.
-ordered_json extreme(const Number& n) {
-    const double x = timeseries::toDouble(n);
-    return std::isinf(x) ? ordered_json(x > 0 ? "inf" : "-inf") : number(n);
+// Null where the range has none on that side.
+ordered_json end(const timeseries::Bound& bound, double none) {
+    const bool isNone = !bound.open && timeseries::toDouble(bound.value) == none;
+    return isNone ? ordered_json(nullptr) : number(bound.value);
 }
 
 ordered_json json(const RangeSet& layer) {
     ordered_json out{{"text", layer.text()}, {"ranges", ordered_json::array()}};
     for (const timeseries::Range& range : layer.ranges())
-        out["ranges"].push_back({{"low", number(range.lo.value)},
+        out["ranges"].push_back({{"low", end(range.lo, -kInfinity)},
                                  {"lowOpen", range.lo.open},
-                                 {"high", number(range.hi.value)},
+                                 {"high", end(range.hi, kInfinity)},
                                  {"highOpen", range.hi.open}});
     return out;
 }
@@ -66,8 +69,8 @@ ordered_json json(const Dataset& dataset, const Row& row) {
                      {"date", dataset.variable.time->points[row.step].date},
                      {"points", row.statistics.points},
                      {"missing", row.statistics.missing},
-                     {"min", extreme(row.statistics.min)},
-                     {"max", extreme(row.statistics.max)},
+                     {"min", number(row.statistics.min)},
+                     {"max", number(row.statistics.max)},
                      {"selected", row.selected},
                      {"percent", row.percent(row.selected)},
                      {"layers", ordered_json::array()}};
@@ -105,12 +108,18 @@ void printHead(const Dataset& dataset, const RangeSet& ranges) {
 
 // And what each layer has of it, where there are several.
 void print(const Dataset& dataset, const std::vector<RangeSet>& layers, const Row& row) {
-    const auto value = [](const Number& n) {
+    const timeseries::StepStatistics& s = row.statistics;
+    const auto value = [&](const Number& n) {
         const auto* real = std::get_if<double>(&n);
         if (real == nullptr) return timeseries::toText(n);
-        return std::isnan(*real) ? std::string("-") : fmt::format("{:.7g}", *real);
+        if (std::isnan(*real)) return std::string("-");
+        // Enough to tell the least from the greatest.
+        const double least = timeseries::toDouble(s.min), most = timeseries::toDouble(s.max);
+        const double size = std::max(std::abs(least), std::abs(most)) / (most - least);
+        const bool isNear = size > 1e4 && std::isfinite(size);
+        const int digits = isNear ? std::min(3 + static_cast<int>(std::log10(size)), 17) : 7;
+        return fmt::format("{:.{}g}", *real, digits);
     };
-    const timeseries::StepStatistics& s = row.statistics;
     say("{:>5}  {:<20} {:>12} {:>12} {:>12} {:>12} {:>12} {:>8.2f}\n", row.step,
         timeText(*dataset.variable.time, row.step), withCommas(s.points), withCommas(s.missing),
         value(s.min), value(s.max), withCommas(row.selected), row.percent(row.selected));

@@ -84,13 +84,20 @@ ordered_json variableJson(const Variable& v, const timeseries::StepGrids& grids)
 std::string axisText(const Axis& axis, bool ofMesh) {
     const auto& c = axis.coordinates;
     const std::string unit = axis.units.empty() ? "" : " " + axis.units;
+    if (!ofMesh && c.size() == 1)
+        return fmt::format("{}: 1 point at {:g}{}", axis.name, c[0], unit);
+    const double spacing =
+        (c.back() - c.front()) / std::max(1.0, static_cast<double>(c.size()) - 1);
+    // Digits that tell an end from what is beside it, of a mesh a hundredth of it.
+    const double size = std::max(std::abs(c.front()), std::abs(c.back())),
+                 steps = size / std::abs(ofMesh ? spacing / 100 : spacing);
+    const int digits =
+        std::isfinite(steps) ? std::clamp(2 + static_cast<int>(std::log10(steps)), 6, 17) : 6;
     if (ofMesh)
-        return fmt::format("{}: {:g} to {:g}{}{}", axis.name, c.front(), c.back(), unit,
-                           axis.down ? ", downward" : "");
-    if (c.size() == 1) return fmt::format("{}: 1 point at {:g}{}", axis.name, c[0], unit);
-    const double spacing = (c.back() - c.front()) / static_cast<double>(c.size() - 1);
-    return fmt::format("{}: {} points, {:g} to {:g}{}, {}{}", axis.name, c.size(), c.front(),
-                       c.back(), unit,
+        return fmt::format("{}: {:.{}g} to {:.{}g}{}{}", axis.name, c.front(), digits, c.back(),
+                           digits, unit, axis.down ? ", downward" : "");
+    return fmt::format("{}: {} points, {:.{}g} to {:.{}g}{}, {}{}", axis.name, c.size(), c.front(),
+                       digits, c.back(), digits, unit,
                        axis.uniform() ? fmt::format("every {:g}", std::abs(spacing)) : "uneven",
                        axis.down ? ", downward" : "");
 }

@@ -201,10 +201,7 @@ Explorer Exploration::restOf(const Pending& pending) const {
             next.steps = pending.wish.steps;
             next.play.time = pending.wish.play.time;
     }
-    if (pending.travel != 0) {  // as History::undo()
-        next.size = explorer().size;
-        next.play.tick = explorer().play.tick;
-    }
+    if (pending.travel != 0) keepAcrossUndo(next, explorer());
     return next;
 }
 

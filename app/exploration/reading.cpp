@@ -33,14 +33,28 @@ std::string betweenText(const Reading& reading, const Shown& shown) {
            " between points";
 }
 
+glm::dvec3 alongAxes(const Reading& reading, const timeseries::Grid& grid) {
+    if (grid.mesh() || grid.frame().aligned()) return reading.position;
+    glm::dvec3 along;
+    for (std::size_t a = 0; a < 3; ++a)
+        along[static_cast<int>(a)] = grid.axes()[a].coordinates[reading.index[a]];
+    return along;
+}
+
 std::string positionText(const Reading& reading, const Shown& shown, std::size_t axis) {
     const std::string& unit = shown.sorted->grid().axes()[axis].units;
-    const double place = reading.position[static_cast<int>(axis)];
+    const double place = alongAxes(reading, shown.sorted->grid())[static_cast<int>(axis)];
     const std::string at = withUnit(fmt::format("{:.6g}", place), unit);
     // Points that have no neighbours are numbered by one index.
     const auto& mesh = shown.sorted->grid().mesh();
     if (axis > 0 && mesh && !mesh->hasNeighbours()) return at;
     return fmt::format("{}   [{}]", at, reading.index[axis]);
+}
+
+std::optional<std::string> unitOfSpace(const timeseries::Grid& grid) {
+    const auto& axes = grid.axes();
+    const bool isOne = axes[0].units == axes[1].units && axes[1].units == axes[2].units;
+    return isOne ? std::optional(axes[0].units) : std::nullopt;
 }
 
 std::optional<glm::dvec2> onEarth(const Reading& reading, const timeseries::Grid& grid) {
@@ -55,6 +69,11 @@ std::vector<PlaceLine> placeLines(const Reading& reading, const Shown& shown) {
     std::vector<PlaceLine> lines;
     for (std::size_t a = 0; a < 3; ++a)
         lines.push_back({grid.axes()[a].name, positionText(reading, shown, a)});
+    const bool isTurned = !grid.mesh() && !grid.frame().aligned();
+    for (int c = 0; c < 3 && isTurned; ++c)
+        lines.push_back(
+            {grid.frame().names[static_cast<std::size_t>(c)],
+             withUnit(fmt::format("{:.6g}", reading.position[c]), unitOfSpace(grid).value_or(""))});
     if (const auto at = grid.earth() ? onEarth(reading, grid) : std::nullopt) {
         lines.push_back({"longitude", withUnit(fmt::format("{:.6g}", at->x), "degrees_east")});
         lines.push_back({"latitude", withUnit(fmt::format("{:.6g}", at->y), "degrees_north")});

@@ -17,7 +17,7 @@ struct Reading {
     std::array<std::size_t, 3> index{};  // along x, y, z
     timeseries::Number value;
     std::optional<double> between{};  // seen there, interpolated; the point is the nearest
-    glm::dvec3 position{0};           // the grid's
+    glm::dvec3 position{0};           // the grid's, in space
     glm::dvec3 world{0};              // render::PlacedPoints's
     std::size_t step = 0;
     std::string cell{};  // as cellText() has it
@@ -29,10 +29,14 @@ std::string withUnit(const std::string& number, const std::string& unit);
 std::string valueText(const Reading& reading, const Shown& shown);
 // "850.3 K between points"; "" where a point itself is seen.
 std::string betweenText(const Reading& reading, const Shown& shown);
+// Coordinates along the grid's axes, as these are labelled: where they are turned, not the place's.
+glm::dvec3 alongAxes(const Reading& reading, const timeseries::Grid& grid);
+// The one that all axes have, "" of numbers alone; nothing where they differ.
+std::optional<std::string> unitOfSpace(const timeseries::Grid& grid);
 // "0.125 m   [37]": along an axis (0 x, 1 y, 2 z), with the index.
 std::string positionText(const Reading& reading, const Shown& shown, std::size_t axis);
-// "lon", "10.5 °E   [37]": a line for each axis, and for longitude and latitude where the file
-// tells these beside its axes.
+// "lon", "10.5 °E   [37]": a line for each axis, and for x, y and z of space where the axes are
+// turned, for longitude and latitude where the file tells these beside its axes.
 struct PlaceLine {
     std::string name, text;
 };

@@ -105,7 +105,7 @@ nlohmann::ordered_json gridJson(const Grid& grid) {
 std::string stepGridsText(const timeseries::StepGrids& grids) {
     using Are = timeseries::StepGrids::Are;
     if (grids.are == Are::One) return "";
-    if (grids.are == Are::Moved) return "of the first step: its places move, what joins them stays";
+    if (grids.are == Are::Moved) return "its places move, what joins them stays";
     const std::string others = "of the first step; others have their own";
     if (grids.most == 0) return others;
     if (grids.least == grids.most) return others + ", of as many points";

@@ -94,14 +94,16 @@ void AnimationPage::time(PanelContext& context, Form& form) {
             choice.max.x -= 118 * s;
         return std::pair{choice, Rect{{number.max.x - 56 * s, number.min.y}, number.max}};
     };
-    const auto [pace, speed] = split("Pace", kPaces);
+    auto [pace, speed] = split("Pace", kPaces);
     if (const auto chosen =
             segmented(theme, "pace", pace, kPaces, static_cast<std::size_t>(now.pace)))
         change([&](auto& t) { setPace(t, static_cast<timeseries::Pace>(*chosen), axis); });
     const bool even = now.pace == timeseries::Pace::Even;
     const std::string unit = speedUnit(now, axis);
-    text(theme, {speed.min.x - 8 * s, speed.centre().y}, fitting(*theme.small, unit, 52 * s), kDim,
-         1, theme.small);
+    const float more = even ? 0 : 16;  // of seconds a second there are many
+    speed.min.x -= more * s;
+    text(theme, {speed.min.x - 8 * s, speed.centre().y},
+         fitting(*theme.small, unit, (52 - more) * s), kDim, 1, theme.small);
     if (const auto value = numberField(context, speed_, "##speed", speed, unit,
                                        even ? now.stepsPerSecond : now.timeUnitsPerSecond))
         change([&](auto& t) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/panels/counts_text.h"
 #include "app/panels/widgets.h"
@@ -26,7 +27,8 @@ double milliseconds(std::chrono::nanoseconds ns) {
 std::string limitText(const Performance& p) {
     const CanvasReport& r = p.report;
     if (r.uploaded < 1) return fmt::format("sending to the GPU, {:.0f} %", 100 * r.uploaded);
-    if (!r.whole && r.refined > 0) return fmt::format("refining, {:.0f} %", 100 * r.refined);
+    if (!r.whole && r.refined > 0)  // not all before it is
+        return fmt::format("refining, {:.0f} %", std::floor(99.99 * r.refined));
     if (!r.whole && r.stride > 1) return "a subset while it moves";
     if (!r.whole && r.across > 1) return "coarse pixels while it moves";
     if (r.lacksCells) return "points stand for cells";

@@ -25,15 +25,15 @@ std::string unitBetween(const std::string& unit) {
 // As one length where all axes have one unit, or along the Earth's surface, and along each axis.
 void ruler(PanelContext& context, Form& form, const Reading& a, const Reading& b,
            const timeseries::Grid& grid) {
-    const glm::dvec3 apart = b.position - a.position;
+    const glm::dvec3 apart = alongAxes(b, grid) - alongAxes(a, grid);
     const auto& axes = grid.axes();
     const auto from = onEarth(a, grid), to = onEarth(b, grid);
     if (from && to)
         line(context.theme, form, "Distance",
              fmt::format("{:.6g} km", kilometresApart({*from, 0}, {*to, 0})));
-    else if (axes[0].units == axes[1].units && axes[1].units == axes[2].units)
+    else if (const auto unit = unitOfSpace(grid))
         line(context.theme, form, "Distance",
-             withUnit(fmt::format("{:.6g}", glm::length(apart)), axes[0].units));
+             withUnit(fmt::format("{:.6g}", glm::distance(a.position, b.position)), *unit));
     for (int i = 0; i < 3; ++i) {
         const timeseries::Axis& axis = axes[static_cast<std::size_t>(i)];
         if (axis.coordinates.size() > 1)

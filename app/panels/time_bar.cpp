@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "app/choices/decimals.h"
 #include "app/panels/number_field.h"
@@ -124,7 +127,8 @@ void speedField(PanelContext& context, TextField& field, const Rect& at, const D
     const float s = context.theme.scale;
     const bool even = time.pace == timeseries::Pace::Even;
     const double shown = even ? time.stepsPerSecond : time.timeUnitsPerSecond;
-    const Rect box{at.min, {at.min.x + 46 * s, at.max.y}};
+    const float wide = even ? 46 : 62;  // of seconds a second there are many
+    const Rect box{at.min, {at.min.x + wide * s, at.max.y}};
     const std::string unit = speedUnit(time, *dataset.variable.time);
     if (const auto value = numberField(context, field, "##speed", box, unit, shown))
         edit(context, {}, [&](Explorer& e) {
@@ -132,7 +136,7 @@ void speedField(PanelContext& context, TextField& field, const Rect& at, const D
                 std::max(0.0, *value);
         });
     text(context.theme, {box.max.x + 7 * s, at.centre().y},
-         fitting(*context.theme.small, unit, 42 * s), kDim, 0, context.theme.small);
+         fitting(*context.theme.small, unit, (88 - wide) * s), kDim, 0, context.theme.small);
 }
 
 }  // namespace
@@ -150,7 +154,15 @@ void setPace(timeseries::CursorSettings& time, timeseries::Pace pace,
 
 std::string speedUnit(const timeseries::CursorSettings& time, const timeseries::TimeAxis& axis) {
     if (time.pace == timeseries::Pace::Even) return "steps/s";
-    return axis.units.empty() ? "units/s" : axis.units.substr(0, axis.units.find(' ')) + "/s";
+    // Since a date the words are often longer than their room.
+    static constexpr std::array kShort{std::pair{"second", "s"}, std::pair{"minute", "min"},
+                                       std::pair{"hour", "h"}, std::pair{"day", "d"}};
+    const std::string unit = axis.units.substr(0, axis.units.find(' '));
+    const auto* const found = std::ranges::find_if(kShort, [&](const auto& each) {
+        return unit == each.first || unit == each.first + std::string("s");
+    });
+    if (unit.empty()) return "units/s";
+    return (found != kShort.end() ? found->second : unit) + "/s";
 }
 
 void setPoint(timeseries::CursorSettings& time, Point point, std::size_t step) {

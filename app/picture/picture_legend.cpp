@@ -100,7 +100,7 @@ std::string beyondBox(const timeseries::Grid& grid) {
     for (int a = 0; a < 3; ++a) {
         const auto along = static_cast<std::size_t>(a);
         const auto [least, most] = grid.ends(along);
-        const double lo = grid.mesh()->lo()[a], hi = grid.mesh()->hi()[a];
+        const auto [lo, hi] = grid.mesh()->ends(a);
         const double rounding = kRounding * std::max(most - least, hi - lo);
         if (lo >= least - rounding && hi <= most + rounding) continue;
         const timeseries::Axis& axis = grid.axes()[along];
@@ -110,7 +110,7 @@ std::string beyondBox(const timeseries::Grid& grid) {
                               render::withMinusSigns(fmt::format("{:.4g}", hi)),
                               unit.empty() ? "" : " ", unit);
     }
-    return beyond.empty() ? "" : "beyond the box, which is the first step's: " + beyond;
+    return beyond.empty() ? "" : "beyond the box that all steps are drawn in: " + beyond;
 }
 
 // What a sweep reaches beyond is neither drawn nor counted.

@@ -49,8 +49,8 @@ std::string stretchText(const Grid& grid, const PlacedPoints& placed) {
         const double ratio = s[a] / s[0];
         const Axis &axis = grid.axes()[a], &first = grid.axes()[0];
         if (axis.coordinates.size() == 1) continue;
-        if (comparableUnit(axis) == comparableUnit(first)) {
-            const std::string times = fmt::format("{:.3g}", ratio);
+        if (const auto units = unitRatio(axis, first)) {
+            const std::string times = fmt::format("{:.3g}", ratio / *units);
             if (times == "1") continue;  // less than is told
             text += fmt::format("{}{} \u00d7 {}", text.empty() ? "" : ", ", axis.name, times);
         } else {

@@ -106,9 +106,12 @@ HeadlessContext::HeadlessContext(const std::string& wanted) {
     }
     if (!egl_)
         throw std::runtime_error(
-            fmt::format("no OpenGL 4.5 without a window: tried the EGL devices of this machine{}. "
-                        "Mesa's llvmpipe (Debian: libegl1 libgl1-mesa-dri) is enough",
-                        tried.empty() ? ", and found none" : tried));
+            fmt::format("no OpenGL 4.5 without a window: tried the {} of this machine{}. {}",
+                        wanted == "gpu" ? "GPUs that EGL knows" : "EGL devices",
+                        tried.empty() ? ", and found none" : tried,
+                        wanted == "gpu" ? "--device any takes a CPU renderer where there is none"
+                                        : "Mesa's llvmpipe (Debian: libegl1 libgl1-mesa-dri) is "
+                                          "enough"));
     recordErrors();
     const auto text = [](GLenum name) { return reinterpret_cast<const char*>(glGetString(name)); };
     GLint major = 0, minor = 0;

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <utility>
 
+#include "timeseries/readers/text/units.h"
+
 namespace render {
 namespace {
 
@@ -26,18 +28,20 @@ Wide extent(const Axis& axis) {
 std::array<Wide, 3> fittedStretch(const Grid& grid) {
     constexpr Wide kFittedShare = 0.5;
     const auto& axes = grid.axes();
-    // The axes that share the first axis's unit keep their proportions and lead.
-    const std::string leading = comparableUnit(axes[0]);
+    // The axes whose units compare with the first axis's keep their proportions and lead.
+    std::array<std::optional<double>, 3> ratios;
     Wide longest = 0;
-    for (const Axis& axis : axes)
-        if (comparableUnit(axis) == leading) longest = std::max(longest, extent(axis));
+    for (std::size_t a = 0; a < 3; ++a) {
+        ratios[a] = unitRatio(axes[a], axes[0]);
+        if (ratios[a]) longest = std::max(longest, Wide{*ratios[a]} * extent(axes[a]));
+    }
     if (longest == 0)
         for (const Axis& axis : axes) longest = std::max(longest, extent(axis));
     std::array<Wide, 3> stretch{1, 1, 1};
     for (std::size_t a = 0; a < 3; ++a) {
         const Wide length = extent(axes[a]);
         if (length == 0) continue;
-        if (comparableUnit(axes[a]) != leading) stretch[a] = kFittedShare * longest / length;
+        stretch[a] = ratios[a] ? Wide{*ratios[a]} : kFittedShare * longest / length;
     }
     return stretch;
 }
@@ -66,6 +70,12 @@ double mean(const std::vector<double>& v) {
 
 std::string comparableUnit(const Axis& axis) {
     return axis.units.starts_with("degree") ? "degree" : axis.units;
+}
+
+std::optional<double> unitRatio(const Axis& of, const Axis& other) {
+    if (comparableUnit(of) == comparableUnit(other)) return 1;
+    const auto ratio = timeseries::unitRatio(of.units, other.units);
+    return ratio && *ratio > 0 ? ratio : std::nullopt;
 }
 
 PlacedPoints::PlacedPoints(const Grid& grid, std::optional<glm::dvec3> stretch, Map map)

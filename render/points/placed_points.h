@@ -189,6 +189,9 @@ class PlacedPoints {
 // The unit that lengths along an axis are compared in: degrees of longitude and of latitude are
 // drawn alike.
 std::string comparableUnit(const timeseries::Axis& axis);
+// How many of another axis's units one of this one's is as long as: 1000 of "km" and "metre".
+// Nothing where they measure different things.
+std::optional<double> unitRatio(const timeseries::Axis& of, const timeseries::Axis& other);
 
 // The points inside closed ranges of the grid's coordinates along its axes: what `info` and the
 // labels of a picture tell, also of a rotated or sheared grid.

@@ -354,6 +354,7 @@ TEST(NewRanges, HoldAPointThatIsInNoLayerYet) {
             if (holds(ranges) && std::ranges::none_of(all, holds)) ++fresh;
         }
         EXPECT_GT(fresh, 0u) << i;
+        EXPECT_EQ(fresh, step.count(ranges)) << i << ": of no other layer";
         all.push_back(ranges);
         addLayer(e, ranges, step);
     }

@@ -188,6 +188,26 @@ TEST(Exploration, UndoAcrossDataLeavesTheWindowsSizeAlone) {
     EXPECT_EQ(desk.exploration.explorer().size, glm::ivec2(320, 200));
 }
 
+TEST(Exploration, UndoAcrossDataBringsASweepBackWhereItStood) {
+    Desk desk;
+    desk.open("a");
+    Explorer swept = desk.exploration.explorer();
+    timeseries::SweepSettings sweep;
+    sweep.animation = timeseries::RangeSet::parse("0:10");
+    sweep.delta = 1;
+    setSweep(swept, sweep);
+    swept.play.tick = 9;
+    desk.exploration.edit(swept);
+    swept = desk.exploration.explorer();
+    EXPECT_EQ(swept.play.tick, 9);
+    desk.choose("P");
+    desk.untilOpened();
+    EXPECT_EQ(sweepOf(desk.exploration.explorer()), nullptr);
+    desk.exploration.undo();
+    desk.untilOpened();
+    EXPECT_EQ(desk.exploration.explorer(), swept);
+}
+
 TEST(Exploration, UndoTwiceGoesPastDataThatAreNotThereYet) {
     Desk desk;
     desk.open("a");

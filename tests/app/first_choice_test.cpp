@@ -12,6 +12,7 @@
 
 #include "tests/support/measured_axis.h"
 #include "tests/support/scenes.h"
+#include "tests/support/unstructured.h"
 
 namespace app {
 namespace {
@@ -325,6 +326,17 @@ TEST(OpacityFor, IsThatOfOneCellOnASheet) {
         EXPECT_EQ(opacityFor(1000, sheet), opacityFor(1)) << flat;
         EXPECT_EQ(opacityFor(1000, sheet), 0.9) << "1 - exp(-4), but seen through";
     }
+}
+
+// As two-dimensional flows are stored: cells between two planes.
+TEST(OpacityFor, IsThatOfOneCellInOneLayerOfCells) {
+    const auto layersOf = [](std::uint32_t layers) {
+        return tests::gridOf(tests::atCells(tests::bricks(
+            {11, 11, layers + 1}, tests::Cut::Hexahedra,
+            [](double i, double j, double k) { return glm::dvec3(0.1 * i, 0.1 * j, 0.01 * k); })));
+    };
+    EXPECT_EQ(opacityFor(100, *layersOf(1)), opacityFor(1));
+    EXPECT_EQ(opacityFor(100, *layersOf(2)), opacityFor(100));
 }
 
 TEST(ExtentOf, IsTheFiniteOneOfAllSteps) {

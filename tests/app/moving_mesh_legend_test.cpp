@@ -32,7 +32,7 @@ TEST(LegendOfAMeshThatMoves, SaysWhereItHasLeftTheBox) {
     };
     const auto first = at(0);
     EXPECT_THAT(notesOf(gridOfStep(first, at(10))),
-                testing::Contains("beyond the box, which is the first step's: x, 10 to 13 m"));
+                testing::Contains("beyond the box that all steps are drawn in: x, 10 to 13 m"));
     for (const auto& within :
          {first, gridOfStep(first, tests::curvilinear({4, 3, 3}, [](double i, double j, double k) {
                                 return glm::dvec3(0.5 * i, 0.5 * j, 0.5 * k);

@@ -18,7 +18,9 @@ TEST(Pace, RealTimesFirstTakeAsLongAsEvenOnes) {
     panels::setPace(time, Pace::RealTimes, months);
     EXPECT_EQ(time.pace, Pace::RealTimes);
     EXPECT_NEAR(time.timeUnitsPerSecond, 7200, 7200 / 50);
-    EXPECT_EQ(panels::speedUnit(time, months), "hours/s");
+    EXPECT_EQ(panels::speedUnit(time, months), "h/s");
+    EXPECT_EQ(panels::speedUnit(time, {"t", "seconds since 1900-01-01", "", months.points}), "s/s");
+    EXPECT_EQ(panels::speedUnit(time, {"t", "months", "", months.points}), "months/s");
     EXPECT_EQ(panels::speedUnit(time, {"cycle", "", "", months.points}), "units/s");
     // One that was chosen stays.
     time.timeUnitsPerSecond = 24;

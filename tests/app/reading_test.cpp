@@ -80,6 +80,29 @@ TEST(ReadingText, APlaceBesideOtherAxesHasItsLongitudeAndLatitudeToo) {
     EXPECT_EQ(placeLines(reading, world.shown()).size(), 3u) << "no place";
 }
 
+// Lengths along axes that are turned are no coordinates of space, which are told after them.
+TEST(ReadingText, APlaceAlongTurnedAxesIsToldInSpaceToo) {
+    using timeseries::Axis;
+    tests::ShownSteps world(2);
+    // i runs along y, j against x.
+    const timeseries::CoordinateFrame frame{
+        .directions = {0, 1, 0, -1, 0, 0, 0, 0, 1}, .origin = {5, 6, 7}, .names = {"R", "A", "S"}};
+    const auto grid = std::make_shared<const timeseries::Grid>(
+        std::array{Axis{"i", "mm", {0, 2}}, Axis{"j", "mm", {0, 3}}, Axis{"k", "mm", {0, 4}}},
+        frame);
+    world.steps[0] = std::make_shared<const timeseries::SortedStep>(
+        timeseries::SortedStep::build({grid, std::vector<float>(8, 1.0f), {}}));
+    Reading reading;
+    reading.index = {1, 1, 0};
+    reading.position = grid->position(3);
+    std::vector<std::string> lines;
+    for (const auto& [name, text] : placeLines(reading, world.shown()))
+        lines.push_back(name + " " + text);
+    EXPECT_EQ(lines, (std::vector<std::string>{"i 2 mm   [1]", "j 3 mm   [1]", "k 0 mm   [0]",
+                                               "R 2 mm", "A 8 mm", "S 7 mm"}));
+    EXPECT_EQ(alongAxes(reading, *grid), glm::dvec3(2, 3, 0));
+}
+
 TEST(ReadingText, ACellHasItsNumberInTheFileAndItsKind) {
     const auto at = [](double i, double j, double k) { return glm::dvec3(i, j, k); };
     timeseries::UnstructuredGrid cells = tests::bricks({3, 2, 2}, tests::Cut::Hexahedra, at);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/support/unstructured.h"
+#include "timeseries/grid/grid.h"
 #include "timeseries/grid/solid_cells.h"
 
 namespace timeseries {
@@ -183,6 +184,16 @@ TEST(CellsAboutMiddles, AreAsFarAsTheNodesThatTheyHave) {
     for (int a = 0; a < 3; ++a) {
         EXPECT_NEAR(box.lo[a], 0, 1e-5);
         EXPECT_NEAR(box.hi[a], 2 + a, 1e-5);
+    }
+}
+
+// The box that a series is framed by, also of one cell, whose middle has no extent.
+TEST(CellsAboutMiddles, LieInTheBoxOfTheirGrid) {
+    const UnstructuredGrid cells = bricks({2, 2, 2}, Cut::Hexahedra, kPlain);
+    const Grid one(spaceAxes(), std::make_shared<const Mesh>(tests::atCells(cells)));
+    for (int a = 0; a < 3; ++a) {
+        EXPECT_NEAR(one.ends(a).least, 0, 1e-6);
+        EXPECT_NEAR(one.ends(a).most, 1, 1e-6);
     }
 }
 

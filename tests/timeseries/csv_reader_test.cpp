@@ -115,7 +115,9 @@ TEST(Csv, WhatIsWrongIsToldWithItsRow) {
              {"x,y,z\n1,2,3\n", kNoTable},
              {"x,z,T\n1,2,3\n", kNoTable},
              {"x,y,z,T\n", kNoTable},
-             {"x,y,z,T\none,2,3,4\n", kNoTable},
+             {"x,y,z,T\none,2,3,4\n", "row 2: expected a number in column x, found 'one'"},
+             {"x;y;z;T\n1.0;2.0;3.0;0,5\n", "row 2: expected a number in column T, found '0,5'"},
+             {"x,y,z,T\n1,2,3\n1,2,3\n", "row 2: expected 4 numbers, found 3"},
              {"some words, and more\nx,y,z,T\n1,2,3,4\n", kNoTable},
          })
         EXPECT_THAT(refusalOf(table(text)), HasSubstr(told)) << text;

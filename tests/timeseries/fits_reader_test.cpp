@@ -122,6 +122,23 @@ TEST(Fits, EveryTypeOfNumber) {
                                               9223372036854775808.0);
 }
 
+TEST(Fits, UnsignedIntegersOf64BitsAreExact) {
+    constexpr auto kLeast = std::numeric_limits<std::int64_t>::lowest();
+    for (const std::uint64_t first : {std::uint64_t{0}, std::uint64_t{1} << 60,
+                                      (std::uint64_t{1} << 63) - 12, ~std::uint64_t{23}}) {
+        std::vector<std::int64_t> stored;
+        std::vector<std::uint64_t> expected;
+        for (std::uint64_t i = 0; i < 24; ++i) {
+            expected.push_back(first + i);
+            stored.push_back(static_cast<std::int64_t>(first + i) ^ kLeast);
+        }
+        const auto reader = openBytes(image(
+            64, {2, 3, 4}, {"BZERO   =  9223372036854775808", "BSCALE  =                    1"},
+            bytesOf(stored, std::endian::big)));
+        EXPECT_EQ(valuesOf<std::uint64_t>(*reader), expected) << first;
+    }
+}
+
 // Doubles would hold none of these.
 TEST(Fits, IntegersWithAnOffsetAreExact) {
     const auto most = std::numeric_limits<std::int64_t>::max();
@@ -270,13 +287,45 @@ TEST(Fits, AFourthAxisIsTimeAndOneOfOnePixelIsNone) {
     const auto odd = valuesOf<std::int16_t>(*first, 1);
     ASSERT_EQ(odd.size(), 12u);
     for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(odd[i], static_cast<std::int16_t>(2 * i + 1));
-    const auto last = openBytes(image(16, {2, 3, 2, 2}, {"CTYPE4  = 'STOKES'"}, bytes));
+    const auto last = openBytes(image(16, {2, 3, 2, 2}, {"CTYPE4  = 'BEAM'"}, bytes));
     EXPECT_EQ(valuesOf<std::int16_t>(*last, 1)[0], 12);
     const auto endless =
         openBytes(image(16, {2, 3, 4}, {"CTYPE3  = 'TIME'", "CDELT3  = 1E308"}, bytes));
     EXPECT_TRUE(endless->variables()[0].time->counted);
     EXPECT_THAT(last->variables()[0].notes,
-                testing::Contains("STOKES is taken for time: no axis says that it is"));
+                testing::Contains("BEAM is taken for time: no axis says that it is"));
+}
+
+std::vector<std::string> namesOf(const Reader& reader) {
+    std::vector<std::string> all;
+    for (const Variable& variable : reader.variables()) all.push_back(variable.name);
+    return all;
+}
+
+// As AIPS orders them: frequencies come last, and are no time.
+TEST(Fits, PolarisationIsNoPlace) {
+    const std::vector<std::string> keys{"CTYPE3  = 'STOKES'", "CRVAL3  = 1.0",    "CRPIX3  = 1.0",
+                                        "CDELT3  = 1.0",      "CTYPE4  = 'FREQ'", "CRVAL4  = 1.0E9",
+                                        "CRPIX4  = 1.0",      "CDELT4  = 1.0E6"};
+    const auto reader = openBytes(
+        image(16, {2, 3, 4, 5}, keys, bytesOf(ramp<std::int16_t>(120), std::endian::big)));
+    EXPECT_THAT(namesOf(*reader), ElementsAre("STOKES=I", "STOKES=Q", "STOKES=U", "STOKES=V"));
+    for (std::size_t v = 0; v < 4; ++v) {
+        const Variable& plane = reader->variables()[v];
+        EXPECT_EQ(plane.grid->size(), (std::array<std::size_t, 3>{2, 3, 5}));
+        EXPECT_EQ(plane.grid->axes()[2].name, "FREQ");
+        EXPECT_EQ(plane.time->points.size(), 1u);
+        const auto values = std::get<std::vector<std::int16_t>>(reader->read(v, 0).values);
+        for (std::size_t i = 0; i < 30; ++i)
+            EXPECT_EQ(values[i], i % 6 + 6 * (v + 4 * (i / 6))) << v << ' ' << i;
+    }
+    // Circular ones count down from -1.
+    const auto flat = openBytes(image(16, {2, 3, 2},
+                                      {"CTYPE3  = 'STOKES'", "CRVAL3  = -1.0", "CRPIX3  = 1.0",
+                                       "CDELT3  = -1.0", "EXTNAME = 'beam'"},
+                                      bytesOf(ramp<std::int16_t>(12), std::endian::big)));
+    EXPECT_THAT(namesOf(*flat), ElementsAre("beam:STOKES=RR", "beam:STOKES=LL"));
+    EXPECT_EQ(flat->variables()[1].grid->size(), (std::array<std::size_t, 3>{2, 3, 1}));
 }
 
 TEST(Fits, EveryImageIsAVariable) {

@@ -289,6 +289,61 @@ TEST(NetcdfAxes, ASecondTimeIsNoHeight) {
     EXPECT_EQ(reader->variables()[2].grid->size()[2], 1u);
 }
 
+// As cfgrib has them: the valid times, where there are such along the steps.
+TEST(NetcdfAxes, ForecastsGoByTheirTimes) {
+    for (const bool isValid : {false, true}) {
+        Globe file("a.nc");
+        const auto step = file.coordinate("step", 3, "hours");
+        file.text(step.variable, "standard_name", "forecast_period");
+        const int valid = file.variable("valid_time", NC_DOUBLE, {step.dimension});
+        file.text(valid, "standard_name", isValid ? "time" : "air_temperature");
+        file.text(valid, "units", isValid ? "hours since 2000-01-01" : "K");
+        const int run = file.variable("time", NC_DOUBLE, {});
+        file.text(run, "standard_name", "forecast_reference_time");
+        file.text(run, "units", "hours since 1999-12-31");
+        const int t =
+            file.variable("t", NC_FLOAT, {step.dimension, file.lat.dimension, file.lon.dimension});
+        file.text(t, "coordinates", "time step latitude longitude valid_time");
+        file.write(step.variable, std::vector<double>{3, 6, 12});
+        file.write(valid, std::vector<double>{27, 30, 36});
+        const auto reader = open(file.closed());
+        ASSERT_THAT(names(*reader), ElementsAre("t"));
+        const TimeAxis& time = *reader->variables()[0].time;
+        ASSERT_EQ(time.points.size(), 3u);
+        EXPECT_EQ(time.points[2].value, isValid ? 36 : 12);
+        EXPECT_EQ(time.points[2].date, isValid ? "2000-01-02 12:00:00" : "");
+        EXPECT_EQ(time.units, isValid ? "hours since 2000-01-01" : "hours");
+    }
+}
+
+// Of when forecasts began and how long before, the latter; beside a time that is told, members.
+TEST(NetcdfAxes, ForecastsOfSeveralRunsAreMembers) {
+    for (const char* other : {"forecast_reference_time", "time", ""}) {
+        Globe file("a.nc");
+        const auto run = file.coordinate("time", 2, "hours since 2000-01-01"),
+                   step = file.coordinate("step", 3, "hours");
+        if (*other != '\0') file.text(run.variable, "standard_name", other);
+        file.text(step.variable, "standard_name", "forecast_period");
+        file.variable("t", NC_FLOAT,
+                      {run.dimension, step.dimension, file.lat.dimension, file.lon.dimension});
+        file.write(run.variable, std::vector<double>{0, 24});
+        file.write(step.variable, std::vector<double>{3, 6, 12});
+        const auto reader = open(file.closed());
+        const bool areRuns = std::string_view(other) == "forecast_reference_time";
+        ASSERT_EQ(reader->variables().size(), areRuns ? 2u : 3u) << other;
+        EXPECT_EQ(reader->variables()[1].name, areRuns ? "t:time=24" : "t:step=6");
+        EXPECT_EQ(reader->variables()[1].time->points.size(), areRuns ? 3u : 2u);
+    }
+    Globe alone("b.nc");
+    const auto began = alone.coordinate("initial", 3, "hours since 2000-01-01");
+    alone.text(began.variable, "standard_name", "forecast_reference_time");
+    alone.variable("t", NC_FLOAT, {began.dimension, alone.lat.dimension, alone.lon.dimension});
+    alone.write(began.variable, std::vector<double>{0, 6, 12});
+    const auto reader = open(alone.closed());
+    ASSERT_THAT(names(*reader), ElementsAre("t"));
+    EXPECT_EQ(reader->variables()[0].time->points[1].date, "2000-01-01 06:00:00");
+}
+
 TEST(NetcdfAxes, OfTwoDimensionsOfOneKindTheBetterToldTheLongerTheLastIsTheAxis) {
     // Of v(first, second): which is x.
     const auto x = [](std::vector<NcDimension> dimensions, bool firstSays, bool secondSays) {

@@ -381,6 +381,26 @@ TEST(PlainHdf5, NumbersThatHaveNamesLieAsOthersDo) {
     EXPECT_EQ(netcdf->variables()[0].grid->axes()[0].coordinates, (std::vector<double>{5, 6, 7}));
 }
 
+// An attribute of that type: which of them stands for nothing.
+TEST(PlainHdf5, NumbersThatHaveNamesMayBeMissing) {
+    NetcdfBuilder own("own.nc");
+    nc_type kind = 0;
+    const std::uint8_t clear = 0, missing = 255;
+    NetcdfBuilder::check(nc_def_enum(own.id(), NC_UBYTE, "cloud_t", &kind));
+    NetcdfBuilder::check(nc_insert_enum(own.id(), kind, "clear", &clear));
+    NetcdfBuilder::check(nc_insert_enum(own.id(), kind, "missing", &missing));
+    const int y = own.coordinate("y", 2, "m").dimension, x = own.coordinate("x", 2, "m").dimension;
+    const int clouds = own.variable("cloud", kind, {y, x});
+    NetcdfBuilder::check(nc_put_att(own.id(), clouds, "_FillValue", kind, 1, &missing));
+    own.write(0, std::vector<double>{1, 2});
+    own.write(1, std::vector<double>{5, 6});
+    own.write(clouds, std::vector<std::uint8_t>{0, 255, 0, 255});
+    const auto reader = open(own.close());
+    const Field field = reader->read(0, 0);
+    EXPECT_EQ(field.missing, (std::vector<bool>{false, true, false, true}));
+    EXPECT_EQ(reader->variables()[0].missing, "_FillValue 255");
+}
+
 TEST(PlainHdf5, ArraysThatMayGrowHaveNoTimes) {
     std::vector<float> values(60);
     std::iota(values.begin(), values.end(), 0.0f);

@@ -127,16 +127,27 @@ TEST(Unstructured, ACellMeasuresTheSameWhateverStandsBesideIt) {
 }
 
 // Centroids of a layer whose corners lie at -0.05 and 0.05, but for the last bits of these.
-TEST(Unstructured, OneLayerOfCellsHasNoExtentAcross) {
+TEST(Unstructured, OneLayerOfSurfacesHasNoExtentAcross) {
     for (const double bits : {1e-17, 0.01}) {
         const auto grid = bricks({4, 4, 2}, Cut::Hexahedra, [&](double i, double j, double k) {
             return glm::dvec3(i, j, 0.1 * (k - 0.5) + bits * (i + j));
         });
-        const auto mesh = std::make_shared<const Mesh>(tests::atCells(grid));
+        UnstructuredGrid below;
+        below.points = grid.points;
+        for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
+            const auto of = listOf(grid.corners, grid.ends, cell);
+            addCell(below, 9, {of[0], of[1], of[2], of[3]});
+        }
+        const auto mesh = std::make_shared<const Mesh>(tests::atCells(below));
         EXPECT_GT(mesh->hi().z, mesh->lo().z);
         const Grid of(spaceAxes(), mesh);
         EXPECT_EQ(of.axes()[0].coordinates.size(), 2u);
         EXPECT_EQ(of.axes()[2].coordinates.size(), bits < 1e-10 ? 1u : 2u);
+        // Solids reach as far as their corners.
+        EXPECT_EQ(Grid(spaceAxes(), std::make_shared<const Mesh>(tests::atCells(grid)))
+                      .axes()[2]
+                      .coordinates.size(),
+                  2u);
     }
 }
 
@@ -284,6 +295,30 @@ TEST(Unstructured, OfManyFlawsTheFirstIsTold) {
         grid.ends[first + 50] = 1;
         EXPECT_EQ(flawOf(grid), fmt::format("cell {} ends at 1 of 474552 entries", first + 50));
     }
+}
+
+// Corners in any order: the moments of what then crosses itself are no solid's.
+TEST(Unstructured, CellsThatCrossThemselvesAreNoLargerThanTheirCornersAreApart) {
+    constexpr double kAway = 0.1, kSide = 1 + 2 * kAway;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> away(-kAway, kAway);
+    int measured = 0;
+    for (int round = 0; round < 20'000; ++round) {
+        UnstructuredGrid grid =
+            bricks({2, 2, 2}, Cut::Hexahedra, [&](double i, double j, double k) {
+                return glm::dvec3(i + away(random), j + away(random), k + away(random));
+            });
+        std::shuffle(grid.corners.begin(), grid.corners.end(), random);
+        for (const auto& meshOf : {tests::atCells, tests::atPoints}) {
+            try {
+                const glm::dvec3 widest = meshOf(grid).widest();
+                ASSERT_LT(std::max({widest.x, widest.y, widest.z}), 2 * kSide) << round;
+                ++measured;
+            } catch (const std::invalid_argument&) {  // of no volume
+            }
+        }
+    }
+    EXPECT_GT(measured, 20'000);
 }
 
 // Any number anywhere: what has no flaw is measured, and nothing is read that is not there.

@@ -120,7 +120,7 @@ Grid::Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh, bool ofO
     const double rounding = areAlone ? 0 : 0x1p-24;
     for (int a = 0; a < 3; ++a) {
         if (!axes_[a].coordinates.empty()) continue;
-        const double lo = mesh_->lo()[a], hi = mesh_->hi()[a];
+        const auto [lo, hi] = mesh_->ends(a);
         axes_[a].coordinates = {lo};
         if (hi - lo > rounding * mesh_->widest()[a]) axes_[a].coordinates.push_back(hi);
     }

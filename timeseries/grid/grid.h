@@ -112,9 +112,7 @@ class Grid {
     bool uniform() const;
 
     // The least and the greatest coordinate along an axis.
-    struct Ends {
-        double least, most;
-    };
+    using Ends = Mesh::Ends;
     Ends ends(std::size_t axis) const;
     // REQUIRES of both: no mesh. The places along an index whose coordinates are in [lo, hi], the
     // first and the last; nothing where there are none.

@@ -96,6 +96,14 @@ class Mesh {
     }
     // The least and greatest of each coordinate of points, and of nodes that cells have.
     Box cornersBox() const { return nodes_.empty() ? Box{lo_, hi_} : cornersBox_; }
+    // Its least and greatest along a coordinate.
+    struct Ends {
+        double least, most;
+    };
+    Ends ends(int axis) const {
+        const Box box = cornersBox();
+        return {box.lo[axis], box.hi[axis]};
+    }
     // The shape of the cell that the point stands for, `spread` times as wide. Zero where nothing
     // is drawn: no place, no volume, or folded, turned inside out beside most of the others.
     LowerTriangle<double> cell(std::uint64_t index) const;

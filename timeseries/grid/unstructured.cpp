@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <span>
 
@@ -104,18 +105,16 @@ std::array<glm::dvec3, 2> boxOf(const UnstructuredGrid& grid) {
     return boxOf(grid, [&](std::size_t p) { return used[p] != 0; });
 }
 
-// Of all cells.
-Pages<CellMoments> momentsOf(const UnstructuredGrid& grid, const UnstructuredShapes& shapes) {
-    const std::size_t cells = grid.types.size();
-    Pages<CellMoments> all(cells);
-    inParts(cells, threadsFor(cells, kCellsAThread), [&](std::size_t first, std::size_t last) {
-        shapes.measure(grid, first, {all.data() + first, all.data() + last});
-    });
-    return all;
+// Whether any solid has these: a ball reaches least far, and fills 1.13 times the brick that has
+// its second moments.
+bool areOfASolid(const CellMoments& of) {
+    const glm::dmat3 m = 12.0 * of.second;
+    const double face = m[0][0] * m[1][1] - m[0][1] * m[0][1];
+    return m[0][0] >= 0 && face >= 0 && of.volume * of.volume <= 1.3 * glm::determinant(m);
 }
 
-// The same, but where the centroid lies beside a solid or mass would be beyond its corners, as of
-// one that crosses itself, those of a brick with corners as far apart.
+// The same, but where the centroid lies beside a solid or mass would be beyond its corners or
+// nowhere, as of one that crosses itself, those of a brick with corners as far apart.
 CellMoments withinCell(const UnstructuredGrid& grid, std::size_t cell, const CellMoments& of) {
     constexpr double kRounded = 1e-6;  // of the cell
     const CellType* const type = cellTypeOf(grid.types[cell]);
@@ -133,7 +132,8 @@ CellMoments withinCell(const UnstructuredGrid& grid, std::size_t cell, const Cel
     }
     const glm::dvec3 beside = glm::max(lo - of.centroid, of.centroid - hi), side = hi - lo;
     const double most = std::max({side.x, side.y, side.z});
-    bool isWithin = !(std::max({beside.x, beside.y, beside.z}) > kRounded * most);
+    bool isWithin =
+        !(std::max({beside.x, beside.y, beside.z}) > kRounded * most) && areOfASolid(of);
     for (int c = 0; c < 3; ++c)
         isWithin =
             isWithin && !(of.second[c][c] > 0.25 * side[c] * side[c] + kRounded * most * most);
@@ -144,6 +144,18 @@ CellMoments withinCell(const UnstructuredGrid& grid, std::size_t cell, const Cel
         second += glm::outerProduct(away, away) / (3 * count);
     }
     return {of.volume, mean, second};
+}
+
+// Of all cells.
+Pages<CellMoments> momentsOf(const UnstructuredGrid& grid, const UnstructuredShapes& shapes) {
+    const std::size_t cells = grid.types.size();
+    Pages<CellMoments> all(cells);
+    inParts(cells, threadsFor(cells, kCellsAThread), [&](std::size_t first, std::size_t last) {
+        shapes.measure(grid, first, {all.data() + first, all.data() + last});
+        for (; first < last; ++first)
+            all.data()[first] = withinCell(grid, first, all.data()[first]);
+    });
+    return all;
 }
 
 MeshAbout aboutOf(const UnstructuredGrid& grid, MeshAbout::Points points) {

@@ -140,45 +140,88 @@ std::string_view withoutMark(std::string_view start) {
 
 }  // namespace
 
-std::optional<CsvHeader> csvHeaderOf(std::string_view whole) {
-    const std::string_view start = withoutMark(whole);
-    if (!isText(start)) return std::nullopt;
-    const std::string_view titles = start.substr(beginOf(start));
-    const auto line = titles.find('\n');
-    if (line == titles.npos) return std::nullopt;
-    for (const char separator : {',', ';', '\t', ' '}) {
-        CsvHeader header{.separator = separator, .columns = {}, .places = {}};
-        std::size_t rows = 0;
-        bool numbers = false;
-        CsvRows table(separator, [&](const Row& row) {
-            if (++rows > 1) {
-                numbers = row.size() == header.columns.size();
-                for (std::size_t i = 0; numbers && i < row.size(); ++i)
-                    header.columns[i].isText = !numberIn(row[i]);
-                return false;
-            }
-            for (const std::string& title : row)
-                header.columns.push_back(columnOf(
-                    title.empty() ? fmt::format("column {}", header.columns.size() + 1) : title));
-            return true;
-        });
-        // The first row, perhaps below lines without any; it may be cut where the beginning ends.
-        const auto row = titles.find_first_not_of("\r\n", line);
-        const auto second = titles.find('\n', row);
-        table.take(titles.substr(0, second == titles.npos ? titles.size() : second + 1));
-        if (second == titles.npos) table.end();
-        std::ptrdiff_t others = 0;
-        for (std::size_t i = 0; i < header.columns.size(); ++i) {
-            if (header.columns[i].isText) continue;
-            const auto c = coordinateOf(header.columns[i].name);
-            if (c && !header.places[*c])
-                header.places[*c] = i;
-            else
-                ++others;
-        }
-        if (numbers && header.places[0] && header.places[1] && others > 0) return header;
+namespace {
+
+// The titles, and the first row below them, by one separator.
+struct FirstRows {
+    CsvHeader header;
+    Row row;
+    std::array<bool, 3> names{};  // of coordinates, among the titles
+    std::ptrdiff_t others = 0;    // that have numbers
+
+    bool isAsLong() const { return row.size() == header.columns.size(); }
+    bool isTable() const {
+        return isAsLong() && header.places[0] && header.places[1] && others > 0;
     }
+};
+
+FirstRows firstRowsOf(std::string_view titles, char separator) {
+    FirstRows first;
+    first.header.separator = separator;
+    CsvHeader& header = first.header;
+    std::size_t rows = 0;
+    CsvRows table(separator, [&](const Row& row) {
+        if (++rows > 1) {
+            first.row = row;
+            return false;
+        }
+        for (const std::string& title : row)
+            header.columns.push_back(columnOf(
+                title.empty() ? fmt::format("column {}", header.columns.size() + 1) : title));
+        return true;
+    });
+    // The first row, perhaps below lines without any; it may be cut where the beginning ends.
+    const auto row = titles.find_first_not_of("\r\n", titles.find('\n'));
+    const auto second = titles.find('\n', row);
+    table.take(titles.substr(0, second == titles.npos ? titles.size() : second + 1));
+    if (second == titles.npos) table.end();
+    for (std::size_t i = 0; i < header.columns.size(); ++i) {
+        CsvColumn& column = header.columns[i];
+        const auto c = coordinateOf(column.name);
+        if (c) first.names[*c] = true;
+        column.isText = first.isAsLong() && !numberIn(first.row[i]);
+        if (column.isText) continue;
+        if (c && !header.places[*c])
+            header.places[*c] = i;
+        else
+            ++first.others;
+    }
+    return first;
+}
+
+// By each separator that there is; nothing of what is no text, or one line.
+std::vector<FirstRows> firstRowsOf(std::string_view whole) {
+    std::vector<FirstRows> all;
+    const std::string_view start = withoutMark(whole);
+    if (!isText(start)) return all;
+    const std::string_view titles = start.substr(beginOf(start));
+    if (titles.find('\n') == titles.npos) return all;
+    for (const char separator : {',', ';', '\t', ' '})
+        all.push_back(firstRowsOf(titles, separator));
+    return all;
+}
+
+}  // namespace
+
+std::optional<CsvHeader> csvHeaderOf(std::string_view start) {
+    for (FirstRows& first : firstRowsOf(start))
+        if (first.isTable()) return std::move(first.header);
     return std::nullopt;
+}
+
+std::string csvFlawOf(std::string_view start) {
+    for (const FirstRows& first : firstRowsOf(start)) {
+        const auto& columns = first.header.columns;
+        if (!first.names[0] || !first.names[1] || first.row.empty()) continue;
+        if (!first.isAsLong())
+            return fmt::format("row 2: expected {} numbers, found {}", columns.size(),
+                               first.row.size());
+        for (std::size_t i = 0; i < columns.size(); ++i)
+            if (columns[i].isText)
+                return fmt::format("row 2: expected a number in column {}, found '{}'",
+                                   columns[i].name, first.row[i]);
+    }
+    return "";
 }
 
 namespace {

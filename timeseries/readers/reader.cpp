@@ -14,6 +14,7 @@
 #include "timeseries/readers/arrays/nifti_header.h"
 #include "timeseries/readers/arrays/nrrd_header.h"
 #include "timeseries/readers/csv_reader.h"
+#include "timeseries/readers/csv_table.h"
 #include "timeseries/readers/foam/foam_case.h"
 #include "timeseries/readers/foam/foam_reader.h"
 #include "timeseries/readers/netcdf/netcdf_reader.h"
@@ -142,7 +143,10 @@ const Format* formatOf(const std::filesystem::path& path) {
 [[noreturn]] void failUnknown(const std::filesystem::path& path) {
     const std::string start = beginning(path), other = otherFormat(start);
     if (!other.empty()) throw FileError(notReadSentence(path, other));
-    if (lower(path.extension().string()) == ".csv" && !start.empty())
+    const bool isCsv = lower(path.extension().string()) == ".csv";
+    if (const std::string flaw = isCsv ? csvFlawOf(start) : ""; !flaw.empty())
+        throw FileError(fmt::format("{}: {}", path.string(), flaw));
+    if (isCsv && !start.empty())
         throw FileError(fmt::format(
             "{}: expected a table whose first line names columns x and y, perhaps z, and one more, "
             "above rows of numbers",

@@ -91,19 +91,38 @@ bool isTime(const FitsAxis& axis) {
     return std::ranges::find(kTimes, quantityOf(axis)) != kTimes.end();
 }
 
+// Of polarisation, each plane of which is a variable: no place, and nothing lies between two.
+constexpr const char* kStokes = "STOKES";
+
+// FITS 4.0, table 29.
+std::string stokesName(double value) {
+    static constexpr std::array kNames{"YX", "XY", "YY", "XX", "LR", "RL", "LL",
+                                       "RR", "",   "I",  "Q",  "U",  "V"};
+    const double at = value + 8;
+    const bool isNamed = at == std::floor(at) && at >= 0 && at < kNames.size() && value != 0;
+    return isNamed ? kNames[static_cast<std::size_t>(at)] : fmt::format("{:g}", value);
+}
+
+// A place along an axis.
+struct AlongAxis {
+    std::size_t axis;
+    std::uint64_t at;
+};
+
 // What a variable is read by.
 struct Placed {
     FitsImage image;
     std::optional<std::size_t> time;  // of its axes
+    std::optional<AlongAxis> plane = {};
 };
 
 class FitsReader final : public Reader {
  public:
     explicit FitsReader(const std::filesystem::path& path) : file_(path) {
-        for (FitsImage& image : file_.images(damaged_)) {
+        for (const FitsImage& image : file_.images(damaged_)) {
             const int hdu = image.hdu;
             try {
-                add(std::move(image));
+                add(image);
             } catch (const FileError& flaw) {
                 damaged_.push_back({fmt::format("HDU {}", hdu), flaw.what()});
             }
@@ -120,11 +139,15 @@ class FitsReader final : public Reader {
     StepSources sources(std::size_t, std::size_t step) override { return {{file_.path()}, step}; }
 
  private:
-    void add(FitsImage image);
+    void add(const FitsImage& image);
+    void add(const FitsImage& image, const std::vector<std::size_t>& axes,
+             std::optional<AlongAxis> plane);
+    std::string nameOf(const FitsImage& image, std::optional<AlongAxis> plane) const;
     // Three axes of space and one of time at most, of those longer than one pixel.
     std::optional<std::size_t> timeOf(const FitsImage& image, const std::vector<std::size_t>& axes,
                                       std::vector<std::string>& notes) const;
-    void expectSizes(const FitsImage& image, std::optional<std::size_t> time) const;
+    void expectSizes(const FitsImage& image, std::optional<std::size_t> time,
+                     std::optional<AlongAxis> plane) const;
 
     FitsFile file_;
     std::vector<Placed> placed_;
@@ -145,7 +168,8 @@ std::optional<std::size_t> FitsReader::timeOf(const FitsImage& image,
     return axes.back();
 }
 
-void FitsReader::expectSizes(const FitsImage& image, std::optional<std::size_t> time) const {
+void FitsReader::expectSizes(const FitsImage& image, std::optional<std::size_t> time,
+                             std::optional<AlongAxis> plane) const {
     const std::string place = fmt::format("HDU {}", image.hdu);
     std::uint64_t points = 1;
     for (std::size_t i = 0; i < image.axes.size(); ++i) {
@@ -153,17 +177,50 @@ void FitsReader::expectSizes(const FitsImage& image, std::optional<std::size_t> 
         if (size > most)
             file_.fail(place, fmt::format("expected at most {} pixels along axis {}, found {}",
                                           most, i + 1, size));
-        if (i != time) points *= size;  // three of more than one pixel
+        if (i != time && (!plane || i != plane->axis))
+            points *= size;  // three of more than one pixel
     }
     if (points > kMaxPoints)
         file_.fail(place, fmt::format("expected at most 2^32 points a step, found {}", points));
 }
 
-void FitsReader::add(FitsImage image) {
+void FitsReader::add(const FitsImage& image) {
+    constexpr std::uint64_t kMostPlanes = 12;  // that have names
     std::vector<std::size_t> axes;
     for (std::size_t i = 0; i < image.axes.size(); ++i)
         if (image.axes[i].size > 1) axes.push_back(i);
     if (axes.empty()) return;
+    const auto stokes = std::ranges::find_if(axes, [&](std::size_t i) {
+        return quantityOf(image.axes[i]) == kStokes && image.axes[i].size <= kMostPlanes;
+    });
+    if (stokes == axes.end() || axes.size() == 1) return add(image, axes, std::nullopt);
+    AlongAxis plane{*stokes, 0};
+    axes.erase(stokes);
+    for (; plane.at < image.axes[plane.axis].size; ++plane.at) add(image, axes, plane);
+}
+
+// What CFITSIO calls images that it compresses is no name.
+std::string FitsReader::nameOf(const FitsImage& image, std::optional<AlongAxis> plane) const {
+    const bool named = !image.name.empty() && image.name != "COMPRESSED_IMAGE";
+    const bool isFirst = std::ranges::all_of(
+        placed_, [&](const Placed& other) { return other.image.hdu == image.hdu; });
+    std::string name = named     ? image.name
+                       : isFirst ? file_.path().stem().string()
+                                 : fmt::format("HDU {}", image.hdu);
+    if (plane) {
+        const double value = coordinatesOf(image.axes[plane->axis])[plane->at];
+        // Where nothing has a name, one that other files of a series have too.
+        const bool isAlone = !named && isFirst;
+        name = fmt::format("{}{}={}", isAlone ? "" : name + ":", kStokes, stokesName(value));
+    }
+    if (std::ranges::find(variables_, name, &Variable::name) != variables_.end())
+        name += fmt::format(" (HDU {})", image.hdu);
+    return name;
+}
+
+void FitsReader::add(const FitsImage& image, const std::vector<std::size_t>& longer,
+                     std::optional<AlongAxis> plane) {
+    std::vector<std::size_t> axes = longer;
     Variable variable;
     const auto time = timeOf(image, axes, variable.notes);
     std::erase_if(axes, [&](std::size_t i) { return i == time; });
@@ -171,7 +228,7 @@ void FitsReader::add(FitsImage image) {
         file_.fail(fmt::format("HDU {}", image.hdu),
                    fmt::format("expected three axes of space and one of time at most, found {}",
                                axes.size() + (time ? 1 : 0)));
-    expectSizes(image, time);
+    expectSizes(image, time, plane);
 
     static constexpr std::array kLetters{"x", "y", "z"};
     std::array<Axis, 3> space;
@@ -184,14 +241,8 @@ void FitsReader::add(FitsImage image) {
                 ? "drawn along its pixels: the axes of the sky are turned to them"
                 : "drawn along its pixels, which coordinates count: the axes of "
                   "the file are turned to them");
-    // What CFITSIO calls images that it compresses is no name.
-    const bool named = !image.name.empty() && image.name != "COMPRESSED_IMAGE";
-    variable.nameless = !named && variables_.empty();
-    variable.name = named               ? image.name
-                    : variable.nameless ? file_.path().stem().string()
-                                        : fmt::format("HDU {}", image.hdu);
-    if (std::ranges::find(variables_, variable.name, &Variable::name) != variables_.end())
-        variable.name += fmt::format(" (HDU {})", image.hdu);
+    variable.name = nameOf(image, plane);
+    variable.nameless = variables_.empty() && !plane && variable.name != image.name;
     variable.units = image.unit;
     variable.type = image.type;
     variable.storedAs = image.storedAs;
@@ -214,15 +265,17 @@ void FitsReader::add(FitsImage image) {
     }
     variable.time = std::make_shared<const TimeAxis>(timeAxisOf(times, variable.notes));
     variables_.push_back(std::move(variable));
-    placed_.push_back({std::move(image), time});
+    placed_.push_back({image, time, plane});
 }
 
 Field FitsReader::read(std::size_t variable, std::size_t step) {
     const FitsImage& image = placed_[variable].image;
-    const auto time = placed_[variable].time;
+    const auto& time = placed_[variable].time;
+    const auto& plane = placed_[variable].plane;
     std::vector<std::uint64_t> first(image.axes.size(), 0), last;
     for (const FitsAxis& axis : image.axes) last.push_back(axis.size - 1);
     if (time) first[*time] = last[*time] = step;
+    if (plane) first[plane->axis] = last[plane->axis] = plane->at;
     Field field;
     field.grid = variables_[variable].grid;
     field.values = file_.read(image, first, last);

@@ -34,6 +34,11 @@ std::string standardName(const NcVariable& v) {
     return all.substr(0, all.find(' '));  // modifiers follow a blank
 }
 
+// Since when, and for when, is foretold: times where a variable has no other, members beside one.
+bool isOfForecast(const NcVariable& v) {
+    return isOneOf(standardName(v), {"forecast_period", "forecast_reference_time"});
+}
+
 std::optional<AxisKind> byStandardName(const NcVariable& v) {
     const std::string name = standardName(v);
     if (isOneOf(name, {"longitude", "grid_longitude", "projection_x_coordinate",
@@ -43,8 +48,8 @@ std::optional<AxisKind> byStandardName(const NcVariable& v) {
                        "projection_y_angular_coordinate"}))
         return Y;
     if (name == "time") return T;
-    if (isOneOf(name, {"realization", "radiation_wavelength", "radiation_frequency",
-                       "forecast_period", "forecast_reference_time"}))
+    if (isOneOf(name, {"realization", "radiation_wavelength", "radiation_frequency"}) ||
+        isOfForecast(v))
         return Other;
     if (isOneOf(name, {"depth", "altitude", "height", "air_pressure", "air_potential_temperature",
                        "model_level_number", "sea_water_pressure", "geopotential_height"}) ||
@@ -207,7 +212,7 @@ std::optional<AxisKind> kindByName(std::string_view name) {
 // Two dimensions of one kind: the one told by better evidence keeps it, then the one further right.
 struct FileAxes::Claim {
     std::optional<AxisKind> kind;
-    int evidence;  // 2 by attributes, 1 by name
+    int evidence;  // 2 by attributes, 1 by name, 0 a forecast's
 };
 
 FileAxes::FileAxes(const NcHeader& header, std::span<const NcVariable* const> fields)
@@ -275,7 +280,11 @@ void FileAxes::findTimes(std::span<const NcVariable* const> fields) {
 const NcVariable* FileAxes::coordinateOf(const NcVariable& variable, std::size_t position) const {
     const std::size_t dimension = variable.dimensions[position];
     const NcVariable* own = find(header_.dimensions[dimension].name, variable.group);
-    if (own && own->isAlong(dimension)) return own;
+    if (own && own->isAlong(dimension)) {
+        const NcVariable* const valid =
+            isOfForecast(*own) ? validTimeAlong(dimension) : nullptr;  // what is foretold is then
+        return valid ? valid : own;
+    }
     // An auxiliary coordinate (CF 1.10, section 5) stands in, if it tells which axis it is.
     const Dimension& known = dimensions_[dimension];
     for (const std::string& name : words(variable.text("coordinates"))) {
@@ -286,6 +295,16 @@ const NcVariable* FileAxes::coordinateOf(const NcVariable& variable, std::size_t
     // Times that nobody names: of scans along y too, where y is told by its name.
     const bool free = kindByName(header_.dimensions[dimension].name).value_or(T) == T;
     return free && known.coordinates.empty() && known.times.size() == 1 ? known.times[0] : nullptr;
+}
+
+const NcVariable* FileAxes::validTimeAlong(std::size_t dimension) const {
+    const NcVariable* valid = nullptr;
+    for (const NcVariable* time : dimensions_[dimension].times) {
+        if (standardName(*time) != "time") continue;
+        if (valid) return nullptr;
+        valid = time;
+    }
+    return valid;
 }
 
 const NcVariable* FileAxes::textsAlong(const NcVariable& variable, std::size_t position) const {
@@ -313,7 +332,11 @@ std::optional<AxisKind> FileAxes::kindFromAttributes(const NcVariable& variable,
 }
 
 FileAxes::Claim FileAxes::claimOf(const NcVariable& variable, std::size_t position) const {
-    if (const auto told = kindFromAttributes(variable, position)) return {told, 2};
+    if (const auto told = kindFromAttributes(variable, position)) {
+        const NcVariable* const coordinate = coordinateOf(variable, position);
+        const bool isForecast = told == Other && coordinate && isOfForecast(*coordinate);
+        return isForecast ? Claim{T, 0} : Claim{told, 2};
+    }
     const auto named = kindByName(header_.dimension(variable, position).name);
     const bool times = !dimensions_[variable.dimensions[position]].times.empty();
     return {named || !times ? named : T, 1};
@@ -337,7 +360,7 @@ Roles FileAxes::rolesOf(const NcVariable& variable) const {
     const auto slot = [&](AxisKind kind) -> std::optional<std::size_t>& {
         return kind == X ? roles.x : kind == Y ? roles.y : kind == Z ? roles.z : roles.t;
     };
-    for (const int evidence : {2, 1})
+    for (const int evidence : {2, 1, 0})
         for (std::size_t i = rank; i-- > 0;) {
             const Claim& claim = claims[i];
             if (!claim.kind || *claim.kind == Other || *claim.kind == List ||

@@ -43,7 +43,8 @@ class FileAxes {
     FileAxes(const NcHeader& header, std::span<const NcVariable* const> fields);
 
     // The coordinate variable of a dimension: one-dimensional, numeric, of its name, else named by
-    // the attribute `coordinates`, the variable's own before others'. Null if none, or several.
+    // the attribute `coordinates`, the variable's own before others'; of a forecast's times those
+    // that it is for, where there are such. Null if none, or several.
     const NcVariable* coordinateOf(const NcVariable& variable, std::size_t position) const;
     // What has texts along a dimension that may be its times: of its name, else as models call
     // them. Null if none.
@@ -63,6 +64,7 @@ class FileAxes {
     const NcVariable* find(std::string_view name, std::string_view group) const;
     std::optional<AxisKind> kindFromAttributes(const NcVariable& variable,
                                                std::size_t position) const;
+    const NcVariable* validTimeAlong(std::size_t dimension) const;
     Claim claimOf(const NcVariable& variable, std::size_t position) const;
     void findCoordinates();
     void findLists();

@@ -33,6 +33,17 @@ std::string formatName(int format) {
     }
 }
 
+// Also of whole numbers that have names.
+std::optional<ValueType> numberType(int group, nc_type type) {
+    nc_type base = NC_NAT;
+    int kind = 0;
+    const bool isEnum =
+        type > NC_MAX_ATOMIC_TYPE &&
+        nc_inq_user_type(group, type, nullptr, nullptr, &base, nullptr, &kind) == NC_NOERR &&
+        kind == NC_ENUM;
+    return valueType(isEnum ? base : type);
+}
+
 // Whether the library fills with its own number what was never written: arrays of HDF5 that no
 // netCDF wrote may say another, which is a value as others are.
 bool isFilledByDefault(int group, int id, std::optional<ValueType> type) {
@@ -197,7 +208,7 @@ std::optional<NcAttribute> NetcdfFile::readAttribute(int group, int id, int numb
     check(nc_inq_att(group, id, name.data(), &type, &length), place, "its attributes");
     if (length > kMaxAttributeBytes) return std::nullopt;
     const std::string what = fmt::format("its attribute '{}'", name.data());
-    NcAttribute attribute{name.data(), {}, valueType(type)};
+    NcAttribute attribute{name.data(), {}, numberType(group, type)};
     if (type == NC_CHAR) {
         std::string text(length, '\0');
         check(nc_get_att_text(group, id, name.data(), text.data()), place, what);
@@ -211,22 +222,14 @@ std::optional<NcAttribute> NetcdfFile::readAttribute(int group, int id, int numb
             text += (text.empty() ? "" : " ") + std::string(one ? one : "");
         nc_free_string(length, strings.data());
         attribute.value = std::move(text);
-    } else if (attribute.type && floating(*attribute.type)) {
-        std::vector<double> values(length);
-        check(nc_get_att_double(group, id, name.data(), values.data()), place, what);
-        attribute.value = asNumbers(values);
-    } else if (attribute.type == ValueType::U64) {
-        std::vector<unsigned long long> values(length);
-        check(nc_get_att_ulonglong(group, id, name.data(), values.data()), place, what);
-        attribute.value = std::vector<Number>(values.size());
-        for (std::size_t i = 0; i < length; ++i)
-            std::get<1>(attribute.value)[i] = std::uint64_t{values[i]};
     } else if (attribute.type) {
-        std::vector<long long> values(length);
-        check(nc_get_att_longlong(group, id, name.data(), values.data()), place, what);
-        attribute.value = std::vector<Number>(values.size());
-        for (std::size_t i = 0; i < length; ++i)
-            std::get<1>(attribute.value)[i] = std::int64_t{values[i]};
+        withType(*attribute.type, [&]<typename T>(T) {
+            std::vector<T> values(length);
+            check(nc_get_att(group, id, name.data(), values.data()), place, what);
+            std::vector<Number> numbers;
+            for (const T value : values) numbers.push_back(numberOf(value));
+            attribute.value = std::move(numbers);
+        });
     } else {
         return std::nullopt;  // compound and other user types tell nothing here
     }

@@ -1,4 +1,4 @@
-// The netCDF library's types of numbers, and its numbers as the header has them.
+// The netCDF library's types of numbers.
 #pragma once
 
 #include <netcdf.h>
@@ -6,10 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "timeseries/grid/field.h"
-#include "timeseries/index/number.h"
 
 namespace timeseries {
 
@@ -44,11 +42,6 @@ inline std::optional<ValueType> valueType(nc_type type) {
 inline std::uint64_t typeBytes(ValueType type) {
     constexpr std::array<std::uint64_t, 10> kBytes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
     return kBytes[static_cast<std::size_t>(type)];
-}
-
-template <typename T>
-std::vector<Number> asNumbers(const std::vector<T>& values) {
-    return {values.begin(), values.end()};
 }
 
 }  // namespace timeseries

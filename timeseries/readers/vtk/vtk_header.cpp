@@ -103,8 +103,10 @@ void checkVtkExtent(const VtkHeader& header, std::string_view place) {
     for (const auto& [first, last] : header.extent) {
         if (first < -kMaxIndex || last > kMaxIndex || last < first)
             failVtk(header.path, place,
-                    fmt::format("expected at least one point along each axis, found the indices "
-                                "{} to {}",
+                    fmt::format("expected {} along each axis, found the indices {} to {}",
+                                last < first ? "at least one point"
+                                             : fmt::format("indices from {} to {} at most",
+                                                           -kMaxIndex, kMaxIndex),
                                 first, last));
         const auto length = static_cast<std::uint64_t>(last - first + 1);
         if (length > kMaxAxis)

@@ -60,6 +60,8 @@ class FirstError final : public vtkOutputWindow {
     std::string sentence() const {
         std::string text = first_;
         if (const std::size_t line = text.find('\n'); line != text.npos) text.erase(0, line + 1);
+        // What follows is no sentence: its objects, attribute by attribute.
+        if (text.find("returned failure for request") != text.npos) return "its reader stops there";
         if (const std::size_t object = text.find("): "); object != text.npos)
             text.erase(0, object + 3);
         while (!text.empty() && (text.back() == '\n' || text.back() == ' ' || text.back() == '.'))
