@@ -41,6 +41,22 @@ TEST(PlacedPoints, OtherUnitsAreFittedToHalfTheLongest) {
               "5.56 m x drawn as 1° x");  // 1000 m over 180 degrees
 }
 
+// The same length whatever it is called and counted in.
+TEST(PlacedPoints, UnitsThatCompareKeepTheirProportions) {
+    for (const char* metre : {"m", "meter", "metre", "meters"}) {
+        const Grid grid({in(metre, axis(21)), in("m", axis(11)), in("km", axis(11, 0, 0.002))});
+        const PlacedPoints placed(grid);
+        EXPECT_NEAR(placed.boxHalf().y / placed.boxHalf().x, 0.5, 1e-12) << metre;
+        EXPECT_NEAR(placed.boxHalf().z / placed.boxHalf().x, 1, 1e-12) << metre;
+        EXPECT_EQ(stretchText(grid, placed), "") << metre;
+        EXPECT_EQ(stretchText(grid, PlacedPoints(grid, glm::dvec3(1, 1, 2000))), "x \u00d7 2");
+    }
+    // What measures nothing is as long as another that does not.
+    const Grid bare({in("", axis(21)), in("", axis(11)), in("m", axis(11))});
+    EXPECT_NEAR(PlacedPoints(bare).boxHalf().y / PlacedPoints(bare).boxHalf().x, 0.5, 1e-12);
+    EXPECT_NEAR(PlacedPoints(bare).boxHalf().z / PlacedPoints(bare).boxHalf().x, 0.5, 1e-12);
+}
+
 TEST(PlacedPoints, DownwardAxesAreDrawnDownwards) {
     const Grid grid({axis(3), axis(3), in("m", axis(5), true)});
     const PlacedPoints placed(grid);

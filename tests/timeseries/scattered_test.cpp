@@ -83,6 +83,27 @@ TEST(Scattered, PointsOfALatticeStandForItsCells) {
     EXPECT_NEAR(mesh.position(1).x, 0.5, 1e-6);
 }
 
+// Balls about them would fill the space between the turns of a helix.
+TEST(Scattered, PointsAlongALineAreAsWideAsTheyAreApart) {
+    for (const double radius : {0.0, 10.0}) {
+        Places places;
+        for (int i = 0; i < 400; ++i)
+            places.push_back({radius * std::cos(0.05 * i), radius * std::sin(0.05 * i),
+                              radius > 0 ? 0.08 * i : 0.5 * i});
+        const Mesh mesh = meshOfScattered(places);
+        const double apart = glm::distance(places[200], places[201]);
+        for (const std::uint64_t i : {100u, 200u, 300u})
+            EXPECT_NEAR(std::cbrt(tests::volume(mesh, i)), apart, 0.05 * apart) << radius;
+        EXPECT_LE(std::cbrt(tests::volume(mesh, 0)), 2.01 * apart) << "an end";
+    }
+    // A sheet is no line.
+    Places sheet;
+    for (int i = 0; i < 900; ++i) sheet.push_back(glm::dvec3(i % 30, i / 30, 0));
+    const double reach2 = 5;  // of the 16th: 4 at 1, 4 at sqrt 2, 4 at 2, 8 at sqrt 5
+    EXPECT_NEAR(tests::volume(meshOfScattered(sheet), 15 + 30 * 15),
+                4 * M_PI / 3 * std::pow(reach2, 1.5) / 16, 1e-5);
+}
+
 TEST(Scattered, FewPointsStandForSomething) {
     EXPECT_NEAR(tests::volume(meshOfScattered(Places{{3, 4, 5}})), 1, 1e-6);
     for (std::size_t count : {2u, 3u, 33u}) {

@@ -52,31 +52,53 @@ std::pair<Places, std::vector<std::uint32_t>> placesOf(std::span<const glm::dvec
     return {std::move(places), std::move(placeOf)};
 }
 
+// What each of the nearest points to a place stands for, of the ball that just holds these, or of
+// the stretch of a line through it; and how wide the former is beside how far the fourth is away:
+// about 1 where points fill space, 1.4 on a surface, 2.5 on a line.
+struct Nearest {
+    double volume = 0, ofLine = 0, wide = 0;
+};
+
+Nearest nearestOf(const Places& places, const Tree& tree, std::size_t place, std::uint64_t near) {
+    constexpr std::size_t kFourth = 4;
+    // The place itself is among those that are found.
+    std::array<std::uint32_t, kNearest + 1> found;
+    std::array<double, kNearest + 1> squares;
+    const std::size_t count =
+        tree.knnSearch(&places.at[place].x, near + 1, found.data(), squares.data());
+    std::size_t farthest = 0;
+    std::uint64_t others = places.points[found[0]] - 1;
+    while (farthest + 1 < count && (others < near || farthest == 0))
+        others += places.points[found[++farthest]];
+    const double reach = std::sqrt(squares[farthest]),
+                 along = 2 * reach / static_cast<double>(others);
+    const double ball = 4 * std::numbers::pi / 3 * reach * reach * reach;
+    if (!std::isfinite(ball)) return {};
+    const double volume = ball / static_cast<double>(others);
+    return {volume, along * along * along,
+            std::cbrt(volume) / std::sqrt(squares[std::min(kFourth, farthest)])};
+}
+
 // What each point of a place stands for; all of one place alone, for 1. REQUIRES: at least one.
 std::vector<double> volumesOf(const Places& places) {
+    constexpr double kOnALine = 2;
     const std::uint64_t all =
         std::accumulate(places.points.begin(), places.points.end(), std::uint64_t{0});
     if (places.at.size() == 1) return {1 / static_cast<double>(all)};
     const std::uint64_t near = std::min<std::uint64_t>(kNearest, all - 1);
-    std::vector<double> volumes(places.at.size());
+    std::vector<Nearest> nearest(places.at.size());
     const Tree tree(3, places);
-    inParts(volumes.size(), threadsFor(volumes.size(), kPointsAThread),
+    inParts(nearest.size(), threadsFor(nearest.size(), kPointsAThread),
             [&](std::size_t first, std::size_t last) {
-                // The place itself is among those that are found.
-                std::array<std::uint32_t, kNearest + 1> found;
-                std::array<double, kNearest + 1> squares;
-                for (std::size_t place = first; place < last; ++place) {
-                    const std::size_t count =
-                        tree.knnSearch(&places.at[place].x, near + 1, found.data(), squares.data());
-                    std::size_t farthest = 0;
-                    std::uint64_t others = places.points[found[0]] - 1;
-                    while (farthest + 1 < count && (others < near || farthest == 0))
-                        others += places.points[found[++farthest]];
-                    const double reach = std::sqrt(squares[farthest]);
-                    const double ball = 4 * std::numbers::pi / 3 * reach * reach * reach;
-                    volumes[place] = std::isfinite(ball) ? ball / static_cast<double>(others) : 0;
-                }
+                for (; first < last; ++first) nearest[first] = nearestOf(places, tree, first, near);
             });
+    std::vector<double> wide, volumes;
+    for (const Nearest& of : nearest) wide.push_back(of.wide);
+    const auto middle = wide.begin() + static_cast<std::ptrdiff_t>(wide.size() / 2);
+    std::ranges::nth_element(wide, middle);
+    // Most lie along lines, of which balls would fill the space between.
+    const bool areLines = near == kNearest && *middle > kOnALine;
+    for (const Nearest& of : nearest) volumes.push_back(areLines ? of.ofLine : of.volume);
     return volumes;
 }
 
