@@ -95,9 +95,9 @@ class Grid {
     // Throws std::invalid_argument when an axis is empty, not finite or not strictly monotonic, the
     // directions are flawed, or the point count passes 2^63.
     explicit Grid(std::array<Axis, 3> axes, CoordinateFrame frame = {});
-    // Axes without coordinates get the mesh's bounds, one coordinate where these differ by rounding
-    // alone. Of a mesh that moves, they are the series', and each step has a grid, whose memory is
-    // its own.
+    // Axes without coordinates get the bounds of the mesh's corners, one coordinate where these
+    // differ by rounding alone. Of a mesh that moves, they are the series', and each step has a
+    // grid, whose memory is its own.
     Grid(std::array<Axis, 3> space, std::shared_ptr<const Mesh> mesh, bool ofOneStep = false);
 
     const std::array<Axis, 3>& axes() const { return axes_; }

@@ -73,10 +73,10 @@ Nearest nearestOf(const Places& places, const Tree& tree, std::size_t place, std
     const double reach = std::sqrt(squares[farthest]),
                  along = 2 * reach / static_cast<double>(others);
     const double ball = 4 * std::numbers::pi / 3 * reach * reach * reach;
-    if (!std::isfinite(ball)) return {};
+    const double fourth = std::sqrt(squares[std::min(kFourth, farthest)]);
+    if (!std::isfinite(ball) || !(fourth > 0)) return {};  // squares leave the doubles
     const double volume = ball / static_cast<double>(others);
-    return {volume, along * along * along,
-            std::cbrt(volume) / std::sqrt(squares[std::min(kFourth, farthest)])};
+    return {volume, along * along * along, std::cbrt(volume) / fourth};
 }
 
 // What each point of a place stands for; all of one place alone, for 1. REQUIRES: at least one.
