@@ -127,7 +127,7 @@ void speedField(PanelContext& context, TextField& field, const Rect& at, const D
     const float s = context.theme.scale;
     const bool even = time.pace == timeseries::Pace::Even;
     const double shown = even ? time.stepsPerSecond : time.timeUnitsPerSecond;
-    const float wide = even ? 46 : 62;  // of seconds a second there are many
+    const float wide = even ? 46 : 68;  // of seconds a second there are many
     const Rect box{at.min, {at.min.x + wide * s, at.max.y}};
     const std::string unit = speedUnit(time, *dataset.variable.time);
     if (const auto value = numberField(context, field, "##speed", box, unit, shown))
@@ -136,7 +136,7 @@ void speedField(PanelContext& context, TextField& field, const Rect& at, const D
                 std::max(0.0, *value);
         });
     text(context.theme, {box.max.x + 7 * s, at.centre().y},
-         fitting(*context.theme.small, unit, (88 - wide) * s), kDim, 0, context.theme.small);
+         fitting(*context.theme.small, unit, (even ? 42 : 28) * s), kDim, 0, context.theme.small);
 }
 
 }  // namespace
