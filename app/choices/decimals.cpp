@@ -62,6 +62,13 @@ double roundedBelow(double value, double resolution) {
     return rounded < value ? rounded : next;
 }
 
+int digitsApart(double size, double apart, int least) {
+    constexpr int kMost = std::numeric_limits<double>::max_digits10;
+    const double times = std::abs(size / apart);
+    if (!std::isfinite(times) || !(times > 1)) return least;
+    return std::clamp(2 + static_cast<int>(std::log10(times)), least, kMost);
+}
+
 double decimalSum(double a, double b) {
     const double sum = a + b;
     if (!std::isfinite(sum)) return sum;

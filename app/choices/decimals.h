@@ -16,6 +16,10 @@ double roundedTo(double value, double resolution);
 double roundedAbove(double value, double resolution);
 double roundedBelow(double value, double resolution);
 
+// So many significant digits, no fewer than `least`, that numbers up to this size and so far apart
+// differ in them.
+int digitsApart(double size, double apart, int least);
+
 // As decimal digits add up, not as doubles do: 0.1 + 0.2 is 0.3.
 double decimalSum(double a, double b);
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "app/choices/decimals.h"
 #include "app/command/commands.h"
 #include "app/files/dataset.h"
 #include "app/files/progress.h"
@@ -115,10 +116,8 @@ void print(const Dataset& dataset, const std::vector<RangeSet>& layers, const Ro
         if (std::isnan(*real)) return std::string("-");
         // Enough to tell the least from the greatest.
         const double least = timeseries::toDouble(s.min), most = timeseries::toDouble(s.max);
-        const double size = std::max(std::abs(least), std::abs(most)) / (most - least);
-        const bool isNear = size > 1e4 && std::isfinite(size);
-        const int digits = isNear ? std::min(3 + static_cast<int>(std::log10(size)), 17) : 7;
-        return fmt::format("{:.{}g}", *real, digits);
+        const double size = std::max(std::abs(least), std::abs(most));
+        return fmt::format("{:.{}g}", *real, digitsApart(size, 0.1 * (most - least), 7));
     };
     say("{:>5}  {:<20} {:>12} {:>12} {:>12} {:>12} {:>12} {:>8.2f}\n", row.step,
         timeText(*dataset.variable.time, row.step), withCommas(s.points), withCommas(s.missing),

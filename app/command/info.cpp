@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "app/choices/decimals.h"
 #include "app/command/commands.h"
 #include "app/files/dataset.h"
 #include "app/files/grid_text.h"
@@ -89,10 +90,8 @@ std::string axisText(const Axis& axis, bool ofMesh) {
     const double spacing =
         (c.back() - c.front()) / std::max(1.0, static_cast<double>(c.size()) - 1);
     // Digits that tell an end from what is beside it, of a mesh a hundredth of it.
-    const double size = std::max(std::abs(c.front()), std::abs(c.back())),
-                 steps = size / std::abs(ofMesh ? spacing / 100 : spacing);
-    const int digits =
-        std::isfinite(steps) ? std::clamp(2 + static_cast<int>(std::log10(steps)), 6, 17) : 6;
+    const int digits = digitsApart(std::max(std::abs(c.front()), std::abs(c.back())),
+                                   ofMesh ? spacing / 100 : spacing, 6);
     if (ofMesh)
         return fmt::format("{}: {:.{}g} to {:.{}g}{}{}", axis.name, c.front(), digits, c.back(),
                            digits, unit, axis.down ? ", downward" : "");

@@ -10,6 +10,12 @@
 #include "timeseries/grid/cell_types.h"
 
 namespace app {
+namespace {
+
+// Which are not those of space.
+bool hasTurnedAxes(const timeseries::Grid& grid) { return !grid.mesh() && !grid.frame().aligned(); }
+
+}  // namespace
 
 std::string withUnit(const std::string& number, const std::string& unit) {
     const std::string shown = render::shownUnit(unit);
@@ -34,7 +40,7 @@ std::string betweenText(const Reading& reading, const Shown& shown) {
 }
 
 glm::dvec3 alongAxes(const Reading& reading, const timeseries::Grid& grid) {
-    if (grid.mesh() || grid.frame().aligned()) return reading.position;
+    if (!hasTurnedAxes(grid)) return reading.position;
     glm::dvec3 along;
     for (std::size_t a = 0; a < 3; ++a)
         along[static_cast<int>(a)] = grid.axes()[a].coordinates[reading.index[a]];
@@ -69,8 +75,7 @@ std::vector<PlaceLine> placeLines(const Reading& reading, const Shown& shown) {
     std::vector<PlaceLine> lines;
     for (std::size_t a = 0; a < 3; ++a)
         lines.push_back({grid.axes()[a].name, positionText(reading, shown, a)});
-    const bool isTurned = !grid.mesh() && !grid.frame().aligned();
-    for (int c = 0; c < 3 && isTurned; ++c)
+    for (int c = 0; c < 3 && hasTurnedAxes(grid); ++c)
         lines.push_back(
             {grid.frame().names[static_cast<std::size_t>(c)],
              withUnit(fmt::format("{:.6g}", reading.position[c]), unitOfSpace(grid).value_or(""))});

@@ -54,6 +54,20 @@ TEST(Decimals, RoundingTellsNeighboursApartWithTheFewestDigits) {
     }
 }
 
+TEST(Decimals, AsManyDigitsTellNumbersApartAsTheyNeed) {
+    for (const double size : {1.0, 3.7, 1e7, 123456789.0, 1e-20})
+        for (const double share : {0.5, 1e-3, 1e-7, 3e-12}) {
+            const double apart = size * share;
+            const int digits = digitsApart(size, apart, 1);
+            const auto text = [&](double v) { return fmt::format("{:.{}g}", v, digits); };
+            EXPECT_NE(text(size), text(size - apart)) << size << ' ' << share;
+            EXPECT_EQ(digitsApart(size, -apart, 17), 17) << "no fewer";
+        }
+    EXPECT_EQ(digitsApart(0, 0, 6), 6);
+    EXPECT_EQ(digitsApart(1, 0, 6), 6) << "nothing tells them apart";
+    EXPECT_EQ(digitsApart(1e300, 1e-300, 6), 6);
+}
+
 TEST(Decimals, TheNextRoundedValueIsBesideAtMostAUnitAway) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(-1, 1), log(-8, 8);

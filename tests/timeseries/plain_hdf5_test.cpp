@@ -9,41 +9,19 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <cstring>
-#include <limits>
 #include <numeric>
 #include <string>
 
 #include "tests/support/files.h"
-#include "tests/support/netcdf_builder.h"
+#include "tests/support/plain_hdf5.h"
 #include "tests/support/read_variables.h"
 
 namespace timeseries {
 namespace {
 
 using testing::Each;
-using tests::NetcdfBuilder;
 using tests::open;
-
-// 3 x 4 x 5, 0 to 59, in an array that may grow, and says what is where nothing was written.
-template <typename T>
-std::filesystem::path array(hid_t type, std::array<hsize_t, 3> most, std::optional<T> fill,
-                            std::vector<T> values) {
-    const auto path = tests::testFolder() / "array.h5";
-    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    const std::array<hsize_t, 3> size{3, 4, 5};
-    const hid_t space = H5Screate_simple(3, size.data(), most.data());
-    const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
-    H5Pset_chunk(made, 3, size.data());
-    if (fill) H5Pset_fill_value(made, type, &*fill);
-    const hid_t data = H5Dcreate2(file, "v", type, space, H5P_DEFAULT, made, H5P_DEFAULT);
-    EXPECT_GE(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
-    H5Dclose(data);
-    H5Pclose(made);
-    H5Sclose(space);
-    H5Fclose(file);
-    return path;
-}
+using tests::plain_hdf5::array;
 
 // An array of one dimension that is a scale, as H5DSset_scale() makes it.
 void scale(hid_t file, const char* name, const std::vector<double>& places) {
@@ -271,52 +249,6 @@ TEST(PlainHdf5, AFileThatIsWrittenIsToldAndOneThatIsReadCanBeWritten) {
     ::close(writer);
 }
 
-// A type of these whole numbers, of which 0 and 1 have names.
-hid_t named(hid_t base) {
-    const hid_t type = H5Tenum_create(base);
-    for (const int value : {0, 1}) {
-        std::int64_t stored = value;
-        H5Tconvert(H5T_NATIVE_INT64, base, 1, &stored, nullptr, H5P_DEFAULT);
-        H5Tenum_insert(type, value == 0 ? "FALSE" : "TRUE", &stored);
-    }
-    return type;
-}
-
-// As h5py has truth values: also those that have no name.
-template <typename T>
-void expectNumbers(hid_t base, bool turned) {
-    std::vector<T> values(60), stored;
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = T(i % 3 == 0);
-    values[7] = T(-2);
-    values[8] = std::numeric_limits<T>::max();
-    for (const T value : values) {
-        std::array<char, sizeof(T)> bytes;
-        std::memcpy(bytes.data(), &value, sizeof(T));
-        if (turned) std::ranges::reverse(bytes);
-        std::memcpy(&stored.emplace_back(), bytes.data(), sizeof(T));
-    }
-    const hid_t type = named(base);
-    const auto reader = open(array<T>(type, {3, 4, 5}, std::nullopt, stored));
-    H5Tclose(type);
-    const Variable& variable = reader->variables()[0];
-    EXPECT_EQ(variable.name, "v");
-    EXPECT_EQ(variable.grid->size(), (std::array<std::size_t, 3>{5, 4, 3}));
-    const Field field = reader->read(0, 0);
-    EXPECT_EQ(std::get<std::vector<T>>(field.values), values);
-    EXPECT_THAT(field.missing, Each(false));
-    const Field slab = reader->slab(0, 0, {2, 1, 2});
-    EXPECT_EQ(std::get<std::vector<T>>(slab.values),
-              std::vector<T>(values.begin() + 20, values.end()));
-}
-
-TEST(PlainHdf5, NumbersThatHaveNamesAreNumbers) {
-    expectNumbers<std::int8_t>(H5T_STD_I8LE, false);
-    expectNumbers<std::uint8_t>(H5T_STD_U8LE, false);
-    expectNumbers<std::int16_t>(H5T_STD_I16BE, true);
-    expectNumbers<std::uint32_t>(H5T_STD_U32LE, false);
-    expectNumbers<std::int64_t>(H5T_STD_I64BE, true);
-}
-
 // As solvers write velocities: no axis is three points wide for that.
 TEST(PlainHdf5, AVectorOfEachPointIsNoAxis) {
     const auto path =
@@ -338,67 +270,6 @@ TEST(PlainHdf5, AVectorOfEachPointIsNoAxis) {
         EXPECT_EQ(variable.grid->size(), (std::array<std::size_t, 3>{5, 4, 3}));
     }
     EXPECT_THAT(found, testing::UnorderedElementsAre("v", "U:0", "U:1", "U:2"));
-}
-
-// Beside other numbers, in a group; and as netCDF has them.
-TEST(PlainHdf5, NumbersThatHaveNamesLieAsOthersDo) {
-    const auto path =
-        array<float>(H5T_NATIVE_FLOAT, {3, 4, 5}, std::nullopt, std::vector<float>(60, 1));
-    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-    const std::array<hsize_t, 3> size{3, 4, 5};
-    const hid_t space = H5Screate_simple(3, size.data(), nullptr),
-                group = H5Gcreate2(file, "g", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                type = named(H5T_NATIVE_INT8),
-                data =
-                    H5Dcreate2(group, "mask", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    std::vector<std::int8_t> values(60, 1);
-    values[5] = 0;
-    EXPECT_GE(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
-    H5Dclose(data);
-    H5Tclose(type);
-    H5Gclose(group);
-    H5Sclose(space);
-    H5Fclose(file);
-    const auto reader = open(path);
-    const std::size_t mask = tests::indexOf(*reader, "g/mask");
-    EXPECT_EQ(tests::valuesOf<std::int8_t>(*reader, "g/mask"), values);
-    EXPECT_EQ(reader->variables()[mask].grid,
-              reader->variables()[tests::indexOf(*reader, "v")].grid);
-
-    NetcdfBuilder own("own.nc");
-    nc_type kind = 0;
-    NetcdfBuilder::check(nc_def_enum(own.id(), NC_SHORT, "kind_t", &kind));
-    for (const auto& [name, value] : {std::pair<const char*, short>{"air", 0}, {"rock", -300}})
-        NetcdfBuilder::check(nc_insert_enum(own.id(), kind, name, &value));
-    const int y = own.coordinate("y", 2, "m").dimension, x = own.coordinate("x", 3, "m").dimension;
-    const int kinds = own.variable("kind", kind, {y, x});
-    own.write(0, std::vector<double>{1, 2});
-    own.write(1, std::vector<double>{5, 6, 7});
-    own.write(kinds, std::vector<std::int16_t>{0, -300, 0, -300, 0, 0});
-    const auto netcdf = open(own.close());
-    EXPECT_EQ(tests::valuesOf<std::int16_t>(*netcdf, "kind"),
-              (std::vector<std::int16_t>{0, -300, 0, -300, 0, 0}));
-    EXPECT_EQ(netcdf->variables()[0].grid->axes()[0].coordinates, (std::vector<double>{5, 6, 7}));
-}
-
-// An attribute of that type: which of them stands for nothing.
-TEST(PlainHdf5, NumbersThatHaveNamesMayBeMissing) {
-    NetcdfBuilder own("own.nc");
-    nc_type kind = 0;
-    const std::uint8_t clear = 0, missing = 255;
-    NetcdfBuilder::check(nc_def_enum(own.id(), NC_UBYTE, "cloud_t", &kind));
-    NetcdfBuilder::check(nc_insert_enum(own.id(), kind, "clear", &clear));
-    NetcdfBuilder::check(nc_insert_enum(own.id(), kind, "missing", &missing));
-    const int y = own.coordinate("y", 2, "m").dimension, x = own.coordinate("x", 2, "m").dimension;
-    const int clouds = own.variable("cloud", kind, {y, x});
-    NetcdfBuilder::check(nc_put_att(own.id(), clouds, "_FillValue", kind, 1, &missing));
-    own.write(0, std::vector<double>{1, 2});
-    own.write(1, std::vector<double>{5, 6});
-    own.write(clouds, std::vector<std::uint8_t>{0, 255, 0, 255});
-    const auto reader = open(own.close());
-    const Field field = reader->read(0, 0);
-    EXPECT_EQ(field.missing, (std::vector<bool>{false, true, false, true}));
-    EXPECT_EQ(reader->variables()[0].missing, "_FillValue 255");
 }
 
 TEST(PlainHdf5, ArraysThatMayGrowHaveNoTimes) {

@@ -189,39 +189,38 @@ FirstRows firstRowsOf(std::string_view titles, char separator) {
     return first;
 }
 
-// By each separator that there is; nothing of what is no text, or one line.
-std::vector<FirstRows> firstRowsOf(std::string_view whole) {
-    std::vector<FirstRows> all;
+// What `of` makes of them by the first separator of which it makes something.
+template <typename Of>
+auto byFirstSeparator(std::string_view whole, const Of& of) -> decltype(of(FirstRows())) {
     const std::string_view start = withoutMark(whole);
-    if (!isText(start)) return all;
+    if (!isText(start)) return std::nullopt;
     const std::string_view titles = start.substr(beginOf(start));
-    if (titles.find('\n') == titles.npos) return all;
+    if (titles.find('\n') == titles.npos) return std::nullopt;
     for (const char separator : {',', ';', '\t', ' '})
-        all.push_back(firstRowsOf(titles, separator));
-    return all;
+        if (auto made = of(firstRowsOf(titles, separator))) return made;
+    return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<CsvHeader> csvHeaderOf(std::string_view start) {
-    for (FirstRows& first : firstRowsOf(start))
-        if (first.isTable()) return std::move(first.header);
-    return std::nullopt;
+    return byFirstSeparator(start, [](const FirstRows& first) {
+        return first.isTable() ? std::optional(first.header) : std::nullopt;
+    });
 }
 
-std::string csvFlawOf(std::string_view start) {
-    for (const FirstRows& first : firstRowsOf(start)) {
+std::optional<std::string> csvFlawOf(std::string_view start) {
+    return byFirstSeparator(start, [](const FirstRows& first) -> std::optional<std::string> {
         const auto& columns = first.header.columns;
-        if (!first.names[0] || !first.names[1] || first.row.empty()) continue;
+        if (!first.names[0] || !first.names[1] || first.row.empty()) return std::nullopt;
         if (!first.isAsLong())
             return fmt::format("row 2: expected {} numbers, found {}", columns.size(),
                                first.row.size());
-        for (std::size_t i = 0; i < columns.size(); ++i)
-            if (columns[i].isText)
-                return fmt::format("row 2: expected a number in column {}, found '{}'",
-                                   columns[i].name, first.row[i]);
-    }
-    return "";
+        const auto text = std::ranges::find_if(columns, &CsvColumn::isText);
+        if (text == columns.end()) return std::nullopt;
+        return fmt::format("row 2: expected a number in column {}, found '{}'", text->name,
+                           first.row[static_cast<std::size_t>(text - columns.begin())]);
+    });
 }
 
 namespace {

@@ -30,8 +30,8 @@ struct CsvHeader {
 // Of a file's beginning: its titles and its first row. Nothing where it is no table with places and
 // other numbers.
 std::optional<CsvHeader> csvHeaderOf(std::string_view start);
-// Why there is none, of a table whose titles name x and y: which number is none; "" of others.
-std::string csvFlawOf(std::string_view start);
+// Why there is none, of a table whose titles name x and y: which number is none.
+std::optional<std::string> csvFlawOf(std::string_view start);
 
 // Of a column: doubles, of which what stands for nothing ("", "nan", "NA", "null") is NaN; whole
 // numbers of 64 bits where all are whole and some are more than doubles tell apart.

@@ -144,8 +144,8 @@ const Format* formatOf(const std::filesystem::path& path) {
     const std::string start = beginning(path), other = otherFormat(start);
     if (!other.empty()) throw FileError(notReadSentence(path, other));
     const bool isCsv = lower(path.extension().string()) == ".csv";
-    if (const std::string flaw = isCsv ? csvFlawOf(start) : ""; !flaw.empty())
-        throw FileError(fmt::format("{}: {}", path.string(), flaw));
+    if (const auto flaw = isCsv ? csvFlawOf(start) : std::nullopt)
+        throw FileError(fmt::format("{}: {}", path.string(), *flaw));
     if (isCsv && !start.empty())
         throw FileError(fmt::format(
             "{}: expected a table whose first line names columns x and y, perhaps z, and one more, "

@@ -10,19 +10,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "timeseries/readers/cf/cf_axis_kinds.h"
 #include "timeseries/readers/cf/netcdf_header.h"
 
 namespace timeseries {
-
-enum class AxisKind { X, Y, Z, T, List, Other };
-
-// What the variable's own attributes or name tell of the axis it is a coordinate of; nothing when
-// they tell nothing.
-std::optional<AxisKind> kindByAttributes(const NcVariable& coordinate);
-std::optional<AxisKind> kindByName(std::string_view name);
-// Degrees along the equator, by its units (CF 1.10, section 4.2) or its standard name.
-bool isLongitude(const NcVariable& coordinate);
-bool isLatitude(const NcVariable& coordinate);  // likewise, from the equator
 
 // What WRF and MPAS call the texts of their times.
 inline constexpr std::array<std::string_view, 2> kTextTimes{"Times", "xtime"};
