@@ -87,6 +87,7 @@ struct OutputText {
     std::string output;
     DrawnByText by;
     bool portable = false, progress = false;
+    std::optional<double> within = {};
     bool modelGiven = false;  // among the choices of the picture
 };
 
@@ -97,6 +98,11 @@ void addOutput(CLI::App& app, OutputText& into) {
     app.add_flag("--portable", into.portable,
                  "The picture's session keeps no absolute path: for pictures that are published");
     app.add_flag("--progress", into.progress, "Print 'picture I of N' after each picture");
+    app.add_option(
+        "--within", into.within,
+        "Draw as little as keeps the error of optical depth within this (0.05: 5 %): all "
+        "or some of the points, or cells, in the picture's pixels or in coarse ones. "
+        "Without it all is drawn, as well as can be");
     addDrawnBy(app, into.by, {"any", "gl", "cpu", "exact"});
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr")->required();
 }
@@ -127,6 +133,11 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
     options.by = drawnBy(text.by);
     options.portable = text.portable;
     options.progress = text.progress;
+    options.within = text.within;
+    if (options.within && !(*options.within >= 1e-4 && *options.within <= 1))
+        throw ChoiceError("--within takes an error of 0.0001 to 1");
+    if (options.within && options.by.splatter == render::SplatterChoice::Exact)
+        throw ChoiceError("--splatter exact draws all there is: leave --within out");
     if (options.by.splatter == render::SplatterChoice::Exact) {
         if (text.modelGiven && modelOf(options.explorer) == Model::Cells)
             throw ChoiceError(

@@ -47,6 +47,8 @@ struct RenderOptions : CommonOptions {
     bool byPointsAlone = false;  // what draws has no cells, which nobody has left out
     bool portable = false;       // pictures keep no absolute path
     bool progress = false;       // "picture 3 of 31" on stdout after each
+    // Of optical depth, relative: what draws least of what keeps to it. None: all, the best.
+    std::optional<double> within = {};
 };
 
 // One step, drawn in every way, or some, and held against the truth.

@@ -79,19 +79,17 @@ std::string whyFlat(const Explorer& e, const timeseries::Grid& grid,
     return flaw.empty() ? kNoVolumeOnGlobe : flaw;
 }
 
-DepthErrors errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step) {
-    const Rung drawn{modelOf(e)};
+DepthErrors errorsOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
+                     std::span<const Rung> rungs) {
     const auto outline = render::PlacedPoints::outlineOf(step.grid(), e.scale, e.map);
     return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step, eyes(e, outline).front(),
-                         std::span(&drawn, 1));
+                         rungs);
 }
 
-std::string errorText(const DepthErrors& errors) {
-    if (errors.rungs.empty()) return "";
-    const RungError& error = errors.rungs.front();
+std::string errorText(const RungError& error, Ordering ordering) {
     const std::string depth = depthErrorText(error.depth);
     if (depth.empty()) return "";
-    return depth + " of optical depth" + lightErrorText(error, errors.ordering);
+    return depth + " of optical depth" + lightErrorText(error, ordering);
 }
 
 // What all pictures have said of their error: that of the one in the middle, or of the nearest to
@@ -99,12 +97,16 @@ std::string errorText(const DepthErrors& errors) {
 struct MiddleError {
     std::optional<double> depth;
     std::string text;          // as it is said
+    std::string whyNone;       // where nobody knows it
     std::filesystem::path of;  // that picture
+    Rung rung;                 // and what is drawn of it
 };
-MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSource& source) {
+// Of what draws least of these and keeps to `within`, or the truest.
+MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSource& source,
+                          std::span<const Rung> rungs, double within) {
     constexpr std::size_t kAsked = 9;
     const std::size_t middle = frames.size() / 2;
-    MiddleError error{{}, {}, frames[middle].file};
+    MiddleError error{{}, {}, {}, frames[middle].file, rungs.front()};
     // Those before it and behind it in turn.
     for (std::size_t k = 0, asked = 0; k <= 2 * middle + 1 && asked < kAsked; ++k) {
         const std::size_t i = k % 2 == 1 ? middle - (k + 1) / 2 : middle + k / 2;
@@ -113,11 +115,15 @@ MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSourc
         const FrameAt frame = frames[i];
         try {
             const auto step = source.get(frame.step, frames.front().step);
-            if (!hasDepthError(*step)) return error;
-            const DepthErrors errors = errorOf(e, frame, *step);
-            const auto depth = errors.of({modelOf(e)});
-            if (!depth || std::isnan(*depth)) continue;
-            return {depth, errorText(errors), frame.file};
+            if (!hasDepthError(*step)) {
+                error.whyNone = step->whyNoCells();
+                return error;
+            }
+            const DepthErrors errors = errorsOf(e, frame, *step, rungs);
+            const RungError* const drawn =
+                errors.rungs.empty() ? nullptr : errors.find(*errors.cheapest(within));
+            if (!drawn || std::isnan(drawn->depth)) continue;
+            return {drawn->depth, errorText(*drawn, errors.ordering), {}, frame.file, drawn->rung};
         } catch (const timeseries::FileError&) {
             // What cannot be read is told when its turn comes, after the pictures before it.
         }
@@ -125,9 +131,27 @@ MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSourc
     return error;
 }
 
+// What is to be drawn, and its error: all by the chosen model, unless an error is asked for. Points
+// first: of a step whose cells are not wanted they are not made.
+MiddleError chosenError(const RenderOptions& options, const Explorer& e, const FrameFiles& frames,
+                        StepSource& source) {
+    const Rung all{modelOf(e)};
+    if (!options.within) return errorOfMiddle(e, frames, source, std::span(&all, 1), 1);
+    const bool coarsePoints = mayBeCoarse(e.footprint);
+    const auto by = [&](bool cells) {
+        const auto rungs = ladder({.cells = cells, .points = !cells, .coarsePoints = coarsePoints});
+        return errorOfMiddle(e, frames, source, rungs, *options.within);
+    };
+    MiddleError points = by(false);
+    const bool isEnough = points.depth && *points.depth <= *options.within;
+    if (isEnough || all.model == Model::Points || !points.whyNone.empty()) return points;
+    return by(true);
+}
+
 // One picture's is no other's: those of a series may differ by any factor.
 void tellError(const MiddleError& error, const FrameFiles& frames, Stereo stereo) {
     const std::size_t others = frames.size() - 1;
+    if (!error.whyNone.empty()) return say("  error not known: {}\n", error.whyNone);
     if (others == 0) return say("  {}\n", error.text);
     say("  {} in {}; {} not known\n", error.text, filesOf(error.of, stereo).front().string(),
         others == 1 ? "the other picture's is"
@@ -188,20 +212,22 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
         const auto nameOfFirst = [&](const std::filesystem::path& picture) {
             return filesOf(picture, e.stereo.mode).front().filename().string();
         };
-        DrawnStill drawn = drawStill({.explorer = e,
-                                      .variable = variable,
-                                      .stepIndex = frame.step,
-                                      .step = *step,
-                                      .placed = *placed,
-                                      .tick = frame.tick,
-                                      .paths = options.portable ? Paths::Relative : Paths::Both,
-                                      .error = error.depth,
-                                      .errorOf = isOfAnother ? nameOfFirst(error.of) : ""},
-                                     renderer, *onGpu,
-                                     {.opticalDepth = options.opticalDepth,
-                                      .splatCount = options.splatCount,
-                                      .progress = [&](double share) { progress.drawn(share); }},
-                                     frame.file);
+        DrawnStill drawn =
+            drawStill({.explorer = e,
+                       .variable = variable,
+                       .stepIndex = frame.step,
+                       .step = *step,
+                       .placed = *placed,
+                       .tick = frame.tick,
+                       .paths = options.portable ? Paths::Relative : Paths::Both,
+                       .error = error.depth,
+                       .errorOf = isOfAnother ? nameOfFirst(error.of) : "",
+                       .rung = options.within ? std::optional(error.rung) : std::nullopt},
+                      renderer, *onGpu,
+                      {.opticalDepth = options.opticalDepth,
+                       .splatCount = options.splatCount,
+                       .progress = [&](double share) { progress.drawn(share); }},
+                      frame.file);
         if (drawn.mixed) ++told.mixed;
         const bool isBesideClip = e.clip && !clipFlaw(*e.clip, step->grid()).empty();
         if (drawn.points == 0 || isBesideClip) ++told.empty;
@@ -238,7 +264,7 @@ int renderHeadless(const RenderOptions& options) {
     render::FrameRenderer renderer(device.splatter());
     const FrameFiles frames(options.output, e, chosen.steps, dataset.stepCount());
     makeFoldersOf(frames.output());  // before the work: what cannot be made is told at once
-    const MiddleError error = errorOfMiddle(e, frames, *chosen.source);
+    const MiddleError error = chosenError(options, e, frames, *chosen.source);
     const auto [mixed, empty, byGl, flat, why] =
         drawFrames(options, e, dataset.variable, frames, error, *chosen.source, renderer);
     tellFiles(frames, dataset.variable);
@@ -263,7 +289,10 @@ int renderHeadless(const RenderOptions& options) {
     if (options.byPointsAlone)
         say("  note: drawn by points, for --splatter exact draws no cells\n");
     tellStyle(e, dataset.variable);
-    if (!error.text.empty()) tellError(error, frames, e.stereo.mode);
+    if (!error.text.empty() || !error.whyNone.empty()) tellError(error, frames, e.stereo.mode);
+    if (options.within && error.whyNone.empty())
+        say("  drawn: {}{}\n", rungText(error.rung),
+            error.depth && *error.depth > *options.within ? ", the truest there is" : "");
     if (const auto* const sweep = sweepOf(e); sweep && !e.oneTick && sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
             static_cast<double>(frames.size()) * sweep->frequency, sweep->frequency);

@@ -236,7 +236,7 @@ void Exploration::goOn(std::chrono::nanoseconds dt) {
     takeArrivals();
     dropPointsPassed();
     lay();
-    open_->steps.want(wishes());
+    open_->steps.want(wishes(), rangesLookedAt(explorer()));
 }
 
 void Exploration::takeArrivals() {
@@ -289,7 +289,8 @@ void Exploration::dropPointsPassed() {
     if (series.bytes() <= series.budgetBytes() || !series.isStored(step)) return;
     const std::uint64_t held = open_->sorted->pointBytes();
     if (held < series.budgetBytes() / 2) return;
-    if (held < 2 * open_->sorted->pointBytes(runsLookedAt(explorer(), *open_->sorted))) return;
+    const auto looked = open_->sorted->keptPart(rangesLookedAt(explorer()));
+    if (held < 2 * open_->sorted->pointBytes(open_->sorted->select(looked))) return;
     show(step, open_->steps.reopen(step));
 }
 

@@ -38,7 +38,8 @@ LiveSteps::~LiveSteps() {
     endElsewhere(std::move(loader_), std::move(series_), std::move(leaving_));
 }
 
-void LiveSteps::want(std::vector<std::size_t> mostUrgentFirst) {
+void LiveSteps::want(std::vector<std::size_t> mostUrgentFirst, timeseries::RangeSet looked) {
+    looked_ = std::move(looked);
     if (mostUrgentFirst == wished_) return;
     wished_ = std::move(mostUrgentFirst);
     ask();
@@ -103,7 +104,9 @@ void LiveSteps::ask() {
              ++step)
             if (!seen(step)) missing.push_back(step);
     }
-    loader_->want(std::move(missing), haste);
+    // Of a step that only its summary is read of, nothing else.
+    loader_->want(std::move(missing), haste,
+                  haste == Haste::Waited ? looked_ : timeseries::RangeSet());
 }
 
 }  // namespace app

@@ -24,8 +24,9 @@ class LiveSteps {
     // Waits for nothing: a read that is running ends on a thread of its own, see exploration.h.
     ~LiveSteps();
 
-    // What is to be in memory, most urgent first. Cheap to call every frame.
-    void want(std::vector<std::size_t> mostUrgentFirst);
+    // What is to be in memory, most urgent first, and what will be looked at of it. Cheap to call
+    // every frame.
+    void want(std::vector<std::size_t> mostUrgentFirst, timeseries::RangeSet looked = {});
 
     // A step that came. Null when it failed: series().why(step).
     struct Arrival {
@@ -58,6 +59,7 @@ class LiveSteps {
     timeseries::Series::Steps leaving_;
     std::unique_ptr<timeseries::StepLoader> loader_;
     std::vector<std::size_t> wished_;
+    timeseries::RangeSet looked_;
     std::size_t seenBelow_ = 0;  // all steps before it are seen, or failed
 };
 

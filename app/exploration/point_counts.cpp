@@ -42,11 +42,15 @@ PointCounts pointCounts(const Explorer& explorer, const timeseries::SortedStep& 
             .inClipBox = explorer.clip.has_value()};
 }
 
-std::vector<Run> runsLookedAt(const Explorer& explorer, const timeseries::SortedStep& step) {
+timeseries::RangeSet rangesLookedAt(const Explorer& explorer) {
     std::vector<timeseries::RangeSet> all;
-    for (const LayerChoice& layer : explorer.layers)
-        all.push_back(rangesAt(layer, step, explorer.play.tick));
-    return step.select(timeseries::unionOf(all));
+    for (const LayerChoice& layer : explorer.layers) {
+        all.push_back(layer.ranges);
+        if (layer.motion)
+            all.back() = timeseries::RangeSet(
+                std::vector{timeseries::ValueSweep(*layer.motion).window(explorer.play.tick)});
+    }
+    return timeseries::unionOf(all);
 }
 
 }  // namespace app

@@ -25,8 +25,8 @@ struct PointCounts {
 // asks for values that were dropped.
 PointCounts pointCounts(const Explorer& explorer, const timeseries::SortedStep& step);
 
-// The points that pictures and counts of this look at: those of every layer.
-std::vector<timeseries::Run> runsLookedAt(const Explorer& explorer,
-                                          const timeseries::SortedStep& step);
+// The values whose points pictures and counts of this look at: those of every layer, of a sweep
+// where it stands.
+timeseries::RangeSet rangesLookedAt(const Explorer& explorer);
 
 }  // namespace app

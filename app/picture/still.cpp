@@ -11,6 +11,7 @@
 #include "app/files/picture_files.h"
 #include "app/json_text.h"
 #include "app/picture/depth_error.h"
+#include "app/picture/error_text.h"
 #include "app/picture/picture.h"
 #include "render/image/color.h"
 
@@ -22,15 +23,25 @@ DrawnStill drawStill(const Still& still, render::FrameRenderer& renderer, render
                      const render::Extras& extras, const std::filesystem::path& file) {
     const Explorer& e = still.explorer;
     const auto views = eyes(e, still.placed.outline());
-    Picture picture =
-        makePicture(e, still.variable, still.stepIndex, still.step, still.placed, still.tick);
+    const bool someOf = still.rung && still.rung->model == Model::Points;
+    Picture picture = makePicture(someOf ? allBy(Model::Points, e) : e, still.variable,
+                                  still.stepIndex, still.step, still.placed, still.tick);
+    if (someOf) {
+        picture.scene.stride = still.rung->stride;
+        picture.scene.footprint = standingFor(picture.scene.footprint, still.rung->stride);
+    }
     DrawnStill drawn{file, e.stereo.mode, {}, {}, isMixed(e, picture.scene), 0, false};
     for (const render::Layer& layer : picture.scene.layers)
         drawn.points += render::pointCount(layer);
     if (drawn.mixed) picture.legend.notes.emplace_back(kMixedColors);
-    drawn.eyes = renderer.render(
-        {picture.scene, still.step.grid(), asDrawn(e, std::move(picture.legend)), kBackground},
-        onGpu, views, extras);
+    if (still.rung && *still.rung != Rung{modelOf(e)})
+        picture.legend.notes.emplace_back("drawn by " + rungText(*still.rung));
+    drawn.eyes = renderer.render({.scene = picture.scene,
+                                  .grid = still.step.grid(),
+                                  .legend = asDrawn(e, std::move(picture.legend)),
+                                  .background = kBackground,
+                                  .across = still.rung ? still.rung->across : 1},
+                                 onGpu, views, extras);
     drawn.byGl = renderer.splatters().sumsByGl(picture.scene);
     if (still.error && !std::isnan(*still.error)) {
         drawn.metadata[kErrorKey] = fmt::format("{:.3g}", *still.error);

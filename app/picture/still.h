@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/choices/explorer.h"
+#include "app/choices/rung.h"
 #include "app/choices/session.h"
 #include "app/files/dataset.h"
 #include "render/frame/frame.h"
@@ -30,6 +31,8 @@ struct Still {
     // in sight, or it would not be the picture that its session makes once more, among others.
     std::optional<double> error = {};
     std::string errorOf = {};  // the picture that this is of, where it is another
+    // What is drawn of it, where that is not all, by the chosen model.
+    std::optional<Rung> rung = {};
 };
 
 // What goes into a file, or two where the stereo mode makes two.

@@ -40,15 +40,12 @@ Middle middleOf(std::span<const View> eyes) {
     return {midEye(eyes), sum / static_cast<double>(eyes.size())};
 }
 
-FrameRenderer::FrameRenderer(SplatterChoice splatter, LightAs as)
-    : styles_(stylesFor({64, 64})), font_(styles_), splatters_(splatter), as_(as) {
-    inMemory_.setFont(font_);
-}
+FrameRenderer::FrameRenderer(SplatterChoice splatter, LightAs as) : splatters_(splatter), as_(as) {}
 
 GlLight& FrameRenderer::glLight() {
     if (!onGl_) {
         onGl_ = std::make_unique<GlLight>(splatters_.gl().layerBlock());
-        onGl_->setFont(font_);
+        if (font_) onGl_->setFont(*font_);
     }
     return *onGl_;
 }
@@ -65,9 +62,10 @@ void FrameRenderer::makeRoom(std::span<const View> eyes, const LightPass& light)
     });
     // Letters of one size for all eyes, or they would not be seen as one.
     const auto styles = stylesFor(eyes.front().size);
-    if (styles == styles_) return;
-    font_ = Font(styles);
-    if (onGl_) onGl_->setFont(font_);
+    if (font_ && styles == styles_) return;
+    font_.emplace(styles);
+    inMemory_.setFont(*font_);
+    if (onGl_) onGl_->setFont(*font_);
     styles_ = styles;
 }
 
@@ -121,10 +119,10 @@ double FrameRenderer::drawEye(const Prepared& frame, const View& eye) {
 FrameRenderer::EyeInWork FrameRenderer::begin(const Prepared& frame, const View& eye) {
     ++eyes_;
     const FrameContent& content = frame.content;
-    FlatMesh legend = legendMesh(content.legend, font_, eye.size);
+    FlatMesh legend = legendMesh(content.legend, *font_, eye.size);
     AxesMeshes axes;
     if (content.axes)
-        axes = axesMeshes(content.grid, content.scene.placed, eye, frame.middle, font_, legend,
+        axes = axesMeshes(content.grid, content.scene.placed, eye, frame.middle, *font_, legend,
                           content.background);
     const View planes = content.across > 1 ? coarser(eye, content.across) : eye;
     EyeInWork work{
@@ -198,7 +196,7 @@ std::vector<EyePicture> FrameRenderer::render(const FrameContent& content, GlSte
     std::vector<EyePicture> pictures;
     for (const View& eye : eyes) {
         drawWhole(frame, eye, extras.progress);
-        pictures.push_back({targets().readLight(), {}, {}});
+        pictures.push_back({targets().takeLight(), {}, {}});
     }
     if (extras.opticalDepth || extras.splatCount)
         addData(content, step, eyes, frame.light, extras, pictures);

@@ -140,8 +140,8 @@ class FrameRenderer {
     std::vector<float> dataPlane(SplatFrame& splats, const View& view, Channels channels,
                                  std::size_t layer, LightPass& light);
 
-    std::array<FontStyle, 2> styles_;  // that font_ holds
-    Font font_;
+    std::array<FontStyle, 2> styles_{};  // that font_ holds
+    std::optional<Font> font_;           // made for the first picture, which tells its size
     Splatters splatters_;
     MemoryLight inMemory_;
     std::unique_ptr<GlLight> onGl_;

@@ -54,7 +54,8 @@ std::vector<float> PlainFrame::depth(const Scene& scene, const View& view, int a
 
 std::vector<float> opticalDepthOf(const Scene& scene, const View& view,
                                   const std::atomic<bool>& wanted) {
-    constexpr std::uint64_t kAtOnce = 1 << 15;  // a few milliseconds
+    // Some ten milliseconds: each time, a plane is read and written.
+    constexpr std::uint64_t kAtOnce = 1 << 17;
     Scene plain = scene;
     plain.order = Order::None;
     MemoryTargets targets(view.size);
@@ -70,8 +71,15 @@ std::vector<float> opticalDepthOf(const Scene& scene, const View& view,
         }
         const auto perWeight =
             static_cast<float>(opticalDepthPerWeight(plain.layers[k].style.opacity));
-        const std::vector<float> weight = turnedOver(targets.readScalarPlane(k), view.size);
-        for (std::size_t i = 0; i < depth.size(); ++i) depth[i] += perWeight * weight[i];
+        const auto& [channels, part, weight] = targets.plane(k);
+        for (int y = 0; y < part.size.y; ++y) {
+            const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(part.size.x);
+            const auto at =
+                static_cast<std::size_t>(part.at.y + y) * static_cast<std::size_t>(view.size.x) +
+                static_cast<std::size_t>(part.at.x);
+            for (std::size_t x = 0; x < static_cast<std::size_t>(part.size.x); ++x)
+                depth[at + x] += perWeight * weight[row + x];
+        }
     }
     return depth;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <utility>
 #include <vector>
@@ -15,25 +16,38 @@ namespace {
 // Of few rays, beside an error: it makes that larger by a fiftieth, then.
 constexpr double kNoise = 0.2;
 
-// Of so many pixels some, one at random from each of as many equal stretches: of a picture's rows,
-// so that they lie all over it.
-std::vector<glm::ivec2> sampleOf(const std::vector<glm::ivec2>& all, std::size_t count,
-                                 std::mt19937& random) {
-    if (count >= all.size()) return all;
-    std::vector<glm::ivec2> some;
+// Of so many things some, by their numbers, one at random from each of as many equal stretches: of
+// the pixels of a picture's rows, so that they lie all over it.
+std::vector<std::size_t> sampleOf(std::size_t all, std::size_t count, std::mt19937& random) {
+    std::vector<std::size_t> some(std::min(all, count));
+    if (count >= all) {
+        std::iota(some.begin(), some.end(), std::size_t{0});
+        return some;
+    }
     for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t first = all.size() * i / count, last = all.size() * (i + 1) / count;
-        some.push_back(all[first + random() % (last - first)]);
+        const std::size_t first = all * i / count, last = all * (i + 1) / count;
+        some[i] = first + random() % (last - first);
     }
     return some;
 }
 
-std::vector<glm::ivec2> pixelsOf(const PixelBox& box) {
-    std::vector<glm::ivec2> all;
-    for (int y = box.at.y; y < box.at.y + box.size.y; ++y)
-        for (int x = box.at.x; x < box.at.x + box.size.x; ++x) all.emplace_back(x, y);
-    return all;
+// All of a box's, or some.
+std::vector<glm::ivec2> pixelsOf(const PixelBox& box, std::size_t count, std::mt19937& random) {
+    const auto width = static_cast<std::size_t>(box.size.x);
+    const std::size_t all = width * static_cast<std::size_t>(box.size.y);
+    std::vector<glm::ivec2> pixels;
+    pixels.reserve(std::min(all, count));
+    const auto add = [&](std::size_t i) {
+        pixels.push_back(box.at + glm::ivec2(i % width, i / width));
+    };
+    if (count >= all)
+        for (std::size_t i = 0; i < all; ++i) add(i);
+    else
+        for (const std::size_t i : sampleOf(all, count, random)) add(i);
+    return pixels;
 }
+
+bool isSomething(double depth) { return depth > 0; }
 
 // use(coarse pixel, its share) of those around the middle of a pixel.
 template <typename Use>
@@ -51,6 +65,7 @@ void forEachAround(const glm::ivec2& pixel, int across, const Use& use) {
 DepthAt depthFrom(std::vector<float> depth, glm::ivec2 size) {
     return [depth = std::move(depth), size](std::span<const glm::ivec2> pixels) {
         std::vector<double> found;
+        found.reserve(pixels.size());
         for (const glm::ivec2& p : pixels)
             found.push_back(static_cast<double>(
                 depth[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(size.x) +
@@ -88,31 +103,35 @@ SampledTruth::SampledTruth(const Scene& scene, const View& view, const DepthAt& 
 
 void SampledTruth::choosePixels(const DepthAt& first, const Sampling& sampling) {
     std::mt19937 random(1);  // one picture, one figure
-    std::vector<glm::ivec2> shown, rest;
-    {
-        const std::vector<glm::ivec2> all = pixelsOf(coveredPixels(scene_, view_));
-        for (std::size_t count = sampling.asked; true; count *= 4) {
-            const std::vector<glm::ivec2> asked = sampleOf(all, count, random);
-            const std::vector<double> depth = first(asked);
-            shown.clear();
-            rest.clear();
-            for (std::size_t i = 0; i < asked.size(); ++i)
-                (depth[i] > 0 ? shown : rest).push_back(asked[i]);
-            if (asked.size() == all.size() || shown.size() >= sampling.pixels / 4 ||
-                count >= 16 * sampling.asked)
-                break;
-        }
+    const PixelBox box = coveredPixels(scene_, view_);
+    const std::size_t all =
+        static_cast<std::size_t>(box.size.x) * static_cast<std::size_t>(box.size.y);
+    std::vector<glm::ivec2> asked;
+    std::vector<double> depth;
+    std::size_t shown = 0;
+    for (std::size_t count = sampling.asked; true; count *= 4) {
+        asked = pixelsOf(box, count, random);
+        depth = first(asked);
+        shown = static_cast<std::size_t>(std::ranges::count_if(depth, isSomething));
+        if (asked.size() == all || shown >= sampling.pixels / 4 || count >= 16 * sampling.asked)
+            break;
     }
-    const auto add = [&](const std::vector<glm::ivec2>& all, std::size_t count) {
-        const std::vector<glm::ivec2> some = sampleOf(all, count, random);
-        pixels_.insert(pixels_.end(), some.begin(), some.end());
+    const auto add = [&](bool isShown, std::size_t there, std::size_t count) {
+        const std::vector<std::size_t> some = sampleOf(there, count, random);
+        auto next = some.begin();
+        for (std::size_t i = 0, nth = 0; next != some.end(); ++i) {
+            if (isSomething(depth[i]) != isShown || nth++ != *next) continue;
+            pixels_.push_back(asked[i]);
+            ++next;
+        }
         if (some.empty()) return;
         weights_.resize(pixels_.size(),
-                        static_cast<double>(all.size()) / static_cast<double>(some.size()));
+                        static_cast<double>(there) / static_cast<double>(some.size()));
     };
-    const std::size_t half = sampling.pixels / 2, beside = std::min(rest.size(), half);
-    add(shown, sampling.pixels - beside);
-    add(rest, std::max(beside, sampling.pixels - std::min(sampling.pixels, shown.size())));
+    const std::size_t rest = asked.size() - shown, half = sampling.pixels / 2,
+                      beside = std::min(rest, half);
+    add(true, shown, sampling.pixels - beside);
+    add(false, rest, std::max(beside, sampling.pixels - std::min(sampling.pixels, shown)));
 }
 
 // Of four rays that are neighbours one, of another corner each time, so that each row and column

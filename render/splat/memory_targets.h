@@ -29,7 +29,8 @@ class MemoryTargets final : public Targets {
     void putPlane(std::size_t i, Channels channels, const PixelBox& part,
                   PlanePixels& pixels) override;
     std::vector<float> readScalarPlane(std::size_t i) const override;
-    std::span<const float> lightRows(std::vector<float>&) const override { return linear_; }
+    std::span<const float> lightRows(std::vector<float>&) const override;
+    Image takeLight() override;
     std::span<const std::uint8_t> srgb8() const override { return srgb8_; }
     // REQUIRES: a current GL context, here and when this is destroyed.
     GlTargets& onGl() override;
@@ -38,7 +39,7 @@ class MemoryTargets final : public Targets {
     std::size_t pixels() const;
 
     std::vector<float> depth_;
-    PlanePixels linear_;
+    std::vector<glm::vec4> linear_;
     std::vector<std::uint8_t> srgb8_;
     std::vector<Plane> planes_;
     std::unique_ptr<GlTargets> onGl_;

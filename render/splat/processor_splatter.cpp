@@ -179,7 +179,7 @@ class ProcessorFrame final : public SplatFrame {
 
 bool ProcessorSplatter::sortsWhenDrawn(const Scene& scene) {
     return scene.order != Order::None && !scene.cells && TileSum::canSum(scene, Channels::Over) &&
-           splatCount(scene) <= TileSum::kAtOnce;
+           splatCount(scene) <= TileSum::kOrderedAtOnce;
 }
 
 std::unique_ptr<SplatFrame> ProcessorSplatter::prepare(const Scene& scene, DrawList list,

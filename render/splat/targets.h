@@ -44,6 +44,8 @@ class Targets {
     // in memory: its light was asked for as Linear.
     virtual std::span<const float> lightRows(std::vector<float>& room) const = 0;
     Image readLight() const;
+    // The same, which is there no more then.
+    virtual Image takeLight() { return readLight(); }
     // Where the light is in memory as Srgb8, four bytes a pixel; else none.
     virtual std::span<const std::uint8_t> srgb8() const { return {}; }
     // These targets as GL has them. What is in memory is written there.

@@ -270,7 +270,8 @@ void TileSum::Work::sum() {
 
 // Adds so many, or what is worth a call. Returns how many.
 std::uint64_t TileSum::Work::next(std::uint64_t splats) {
-    source->next(ordersInTiles() ? kAtOnce : std::clamp(splats, kLeast, kAtOnce), kept.points);
+    source->next(ordersInTiles() ? kOrderedAtOnce : std::clamp(splats, kLeast, kAtOnce),
+                 kept.points);
     sum();
     return kept.points.point.size();
 }

@@ -37,9 +37,11 @@ class TileMemory {
 class TileSum {
  public:
     static constexpr std::uint64_t kPairs = 1 << 23;
-    // Sorted into tiles at once: more would not make it faster. So many each tile puts in order by
-    // itself, where that is asked for (SortWhenDrawn); of more a list is made before.
+    // Sorted into tiles at once: more would not make it faster.
     static constexpr std::uint64_t kAtOnce = 1 << 20;
+    // So many each tile puts in order by itself, where that is asked for (SortWhenDrawn); of more a
+    // list is made before.
+    static constexpr std::uint64_t kOrderedAtOnce = 1 << 21;
     // `opaqueDepth` is the depth [0, 1] of the opaque scene, a pixel each, row 0 at the bottom, or
     // empty: a splat whose centre lies behind it is not drawn there. `layer` is the plane's, where
     // it has one; `list` is the scene's. All of them must outlive this. REQUIRES: canSum(scene,

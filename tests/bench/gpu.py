@@ -25,7 +25,7 @@ def measure(programs):
         {"commit": commit(PAGE), "date": datetime.date.today().isoformat(), "machine": processor()}))
     (KEPT / "bench.json").write_text(said(pathlib.Path(bench) / "isochron_bench", "--benchmark_filter=^(gl|BM_EyePair)",
                                           "--benchmark_format=json"))
-    for name, (file, _, options) in trade.SCENES.items():
+    for name, (file, _, options, _) in trade.SCENES.items():
         if (trade.DATA / file).exists():
             for by in ("gl", "cpu"):
                 (KEPT / f"{name}.{by}.json").write_text(said(
@@ -75,7 +75,7 @@ def frames(bench):
 
 def scenes():
     rows = []
-    for name, (_, title, _) in trade.SCENES.items():
+    for name, (_, title, _, _) in trade.SCENES.items():
         by = [kept(f"{name}.{who}") for who in ("gl", "cpu")]
         if None in by:
             continue

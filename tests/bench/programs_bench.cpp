@@ -82,6 +82,39 @@ void formerPicture(benchmark::State& state) {
 }
 BENCHMARK(formerPicture)->ArgNames({"points"})->Arg(512)->Unit(benchmark::kSecond)->Iterations(5);
 
+#ifdef VTK_FIRST_PICTURE
+// From nothing to a PNG: the program, its error told, and one of VTK's, by turns; neither has an
+// index. VTK draws through X.
+void vtkFirstPicture(benchmark::State& state) {
+    if (!std::getenv("DISPLAY"))
+        return state.SkipWithError("VTK draws through X: run under xvfb-run");
+    const auto n = static_cast<std::size_t>(state.range(0));
+    const TemporaryFolder folder;
+    const std::string file = folder.path() / "field.nrrd", picture = folder.path() / "picture.png";
+    const timeseries::Field field = bench::turbulence<float>(n);
+    bench::writeField(file, "float", n, std::get<std::vector<float>>(field.values));
+    const std::string range = onePercent(field);
+    const std::size_t colon = range.find(':');
+    std::vector<double> now, vtk;
+    for (auto _ : state) {
+        now.push_back(runProgram({"render", file, "--model", "points", "--range", range, "--cache",
+                                  "off", "-o", picture})
+                          .ms);
+        vtk.push_back(runProgram({file, range.substr(0, colon), range.substr(colon + 1), picture},
+                                 VTK_FIRST_PICTURE)
+                          .ms);
+    }
+    state.counters["now_ms"] = bench::median(now);
+    state.counters["vtk_ms"] = bench::median(vtk);
+}
+BENCHMARK(vtkFirstPicture)
+    ->ArgNames({"points"})
+    ->Arg(256)
+    ->Arg(512)
+    ->Unit(benchmark::kSecond)
+    ->Iterations(5);
+#endif
+
 // A step of 1024^3 bytes: sorted, counted and drawn by the program.
 void storeLarge(benchmark::State& state) {
     const TemporaryFolder folder;

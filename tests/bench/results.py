@@ -462,6 +462,7 @@ def large_page(part):
     rows = [[what, ms(f, f"{key}_ms"), f"{f[f'{key}_MB']:,.0f} MB"] for what, key in
             [("drawn without an index: `render --cache off`", "alone"), ("sorted and written: `index`", "index"),
              ("counted: `count`", "count"), ("drawn: `render`", "render")]]
+    target("`index` of the same, memory / the step's bytes", f["index_MB"] * 1e6 / 1024**3, 2.5)
     return (f"\nThe program on a step of 1024³ values of 8 bits, one of which, that of {f['selected']:,.0f} points ({share}), is asked for, 1200 x 900 pixels:\n\n"
             + table(["", "time", "most memory"], rows))
 
@@ -512,6 +513,13 @@ def vtk_page(part):
             rows.append([what.format(of), theirs, ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"]), digits(f["cpu2/cpu1"])])
             if "ToDraw" in run and share == 10 and n > 128:
                 target(f"1 % of {points(n)} selected and ready to draw, VTK / ours", f["second/first"], 1.7, at_least=True)
+    for n in (256, 512):
+        f = part(f"vtkFirstPicture/points:{n}")
+        if not f:
+            continue
+        rows.append([f"first picture of 1 % of {points(n)}, program start, reading and PNG included", "`vtkThresholdPoints`, `vtkPointGaussianMapper`", ms(f, "now_ms"), ms(f, "vtk_ms"),
+                     digits(f["vtk_ms"] / f["now_ms"]), ""])
+        target(f"first picture of 1 % of {points(n)} without an index, VTK / ours", f["vtk_ms"] / f["now_ms"], 1.7, at_least=True)
     text = ("Ours and VTK's by turns, the same points, view and picture; all threads' processor time beside the clock's. VTK's splats blend into 8\n"
             "bits and its frame has no axes; its points are uploaded before. A contour is VTK's surface beside our points about the same value.\n\n")
     return text + table(["what", "VTK's", "ours", "VTK", "VTK / ours", "of processor time"], rows)
@@ -520,13 +528,19 @@ def vtk_page(part):
 def window_page(part):
     rows = re.findall(r"^(.+?) +(\d+) times +median +([\d.]+) ms +longest +([\d.]+) ms", part.figures, re.M)
     asked = {"from a drag's end to all of a million points": 33.3, "from a drag to the changed picture": 33.3, "between frames, turning, the pool fire": 16.7, "between frames, turning, 1 % of 512^3": 33.3,
-             "between frames, turning, a million points": 33.3, "between steps, 256^3, read on the way": 100,
+             "between frames, turning, a million points": 33.3, "between frames, turning, all of a million points": 33.3, "between steps, 256^3, read on the way": 100,
+             "between steps, 1 % of 512^3, from a cold disk": 100,
              "between steps, 256^3, from memory": 66.7, "between windows, a shell swept through the fire": 50}
     for what, _, middle, _ in rows:
         if what.strip() in asked:
             target(f"window: {what.strip().replace('^3', '³')}", float(middle) * 1e-3, asked[what.strip()] * 1e-3, shown=time)
+    memory = {what: float(most) for what, most in re.findall(r"^(between steps, .*?), most memory (\d+) MB", part.figures, re.M)}
+    for what, most in memory.items():
+        if "1024" in what:
+            target(f"window: {what.replace('^3', '³')}: MB of memory", most, 2000)
     return ("`ui_bench`: the real program under Xvfb; a frame is told by the window's answer to a ping, asked for every 5 ms.\n\n"
-            + table(["", "median", "longest"], [[what.strip(), f"{middle} ms", f"{longest} ms"] for what, _, middle, longest in rows]))
+            + table(["", "median", "longest"], [[what.strip(), f"{middle} ms", f"{longest} ms"] for what, _, middle, longest in rows])
+            + ("".join(f"\nMost memory {what}: {most:,.0f} MB.\n" for what, most in memory.items())))
 
 
 def headset_page(part):

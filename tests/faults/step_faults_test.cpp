@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <functional>
 #include <map>
 #include <optional>
@@ -27,9 +29,16 @@ namespace fs = std::filesystem;
 // what it returns (a count, or -errno). One thread.
 using Meddle = std::function<std::optional<long>(std::size_t call, std::size_t bytes)>;
 struct Calls {
-    Meddle pread, pwrite;
-    std::size_t preads = 0, pwrites = 0;
+    Meddle pread, pwrite, fsync, rename, flock;
+    std::size_t preads = 0, pwrites = 0, fsyncs = 0, renames = 0, flocks = 0;
+    // The process is killed in place of what would be the so-manieth of all that change anything.
+    std::optional<std::size_t> killedAt;
+    std::size_t changes = 0;
 } calls;
+
+void perhapsDie() {
+    if (calls.killedAt && calls.changes++ == *calls.killedAt) ::kill(::getpid(), SIGKILL);
+}
 
 // What was done to files below a folder, in order, while it is watched.
 struct Done {
@@ -69,6 +78,7 @@ ssize_t pread(int file, void* into, size_t bytes, off_t at) {
     return ::syscall(SYS_pread64, file, into, bytes, at);
 }
 ssize_t pwrite(int file, const void* from, size_t bytes, off_t at) {
+    perhapsDie();
     if (calls.pwrite)
         if (const auto meddled = calls.pwrite(calls.pwrites++, bytes)) {
             if (*meddled < 0) return answer(*meddled);
@@ -84,17 +94,35 @@ ssize_t pwrite(int file, const void* from, size_t bytes, off_t at) {
     return put;
 }
 int fsync(int file) {
+    perhapsDie();
+    if (calls.fsync)
+        if (const auto meddled = calls.fsync(calls.fsyncs++, 0))
+            return static_cast<int>(answer(*meddled));
     const std::string path = pathOf(file);
     note({fs::is_directory(path) ? Done::SyncFolder : Done::Sync, path, "", 0, ""});
     return static_cast<int>(::syscall(SYS_fsync, file));
 }
 int rename(const char* from, const char* to) {
+    perhapsDie();
+    if (calls.rename)
+        if (const auto meddled = calls.rename(calls.renames++, 0))
+            return static_cast<int>(answer(*meddled));
     note({Done::Rename, from, to, 0, ""});
     return static_cast<int>(::syscall(SYS_rename, from, to));
 }
 int unlink(const char* path) {
+    perhapsDie();
     note({Done::Remove, path, "", 0, ""});
     return static_cast<int>(::syscall(SYS_unlink, path));
+}
+
+// By another name here, which struct flock has too.
+int lockFile(int file, int operation) __asm__("flock");
+int lockFile(int file, int operation) {
+    if (calls.flock)
+        if (const auto meddled = calls.flock(calls.flocks++, 0))
+            return static_cast<int>(answer(*meddled));
+    return static_cast<int>(::syscall(SYS_flock, file, operation));
 }
 
 }  // extern "C"
@@ -200,6 +228,87 @@ TEST_F(StepFaults, AFailedWriteLeavesTheOldFile) {
     }
     EXPECT_GE(failed, 4u);
     EXPECT_NE(tests::readBytes(path), before);
+}
+
+// A file system that fails when all is to be on the disk, or where the name cannot be given.
+TEST_F(StepFaults, AFailedFlushOrRenameLeavesTheOldFile) {
+    write();
+    const std::string before = tests::readBytes(path);
+    step = SortedStep::build(tests::randomField<float>(random, {60, 50, 40}, 0));
+    const auto fails = [](int code) {
+        return [code](std::size_t, std::size_t) { return std::optional<long>(-code); };
+    };
+    const auto refusal = [&] {
+        try {
+            write();
+        } catch (const StepFileError& error) {
+            calls = {};
+            EXPECT_EQ(tests::readBytes(path), before);
+            EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+            return std::string(error.what());
+        }
+        return std::string("written");
+    };
+    calls.fsync = fails(EIO);
+    EXPECT_THAT(refusal(), HasSubstr("a.isostep: Input/output error"));
+    calls.rename = fails(EROFS);
+    EXPECT_THAT(refusal(), HasSubstr("a.isostep: Read-only file system"));
+    // Only the folder's, behind the rename: the file is there, and whole.
+    calls.fsync = [](std::size_t call, std::size_t) {
+        return call > 0 ? std::optional<long>(-EIO) : std::nullopt;
+    };
+    EXPECT_EQ(refusal(), "written");
+    EXPECT_NE(tests::readBytes(path), before);
+}
+
+// A network's file system that knows none: what is written is whole, and what others left stays.
+TEST_F(StepFaults, WithoutLocksAFileIsWrittenAndNothingElseRemoved) {
+    const fs::path left = folder / "a.isostep.1-2.unfinished";
+    tests::writeBytes(left, "left");
+    calls.flock = [](std::size_t, std::size_t) { return std::optional<long>(-ENOLCK); };
+    write();
+    removeUnfinished(folder, [](const fs::path&) { return true; });
+    EXPECT_GT(calls.flocks, 1u);
+    calls = {};
+    EXPECT_TRUE(fs::exists(left));
+    expectWhole(SortedStep::stored(
+        std::make_shared<const StepFile>(openBytes(path)), field.grid, false,
+        {[](const std::string& why) -> SortedStep { throw std::runtime_error(why); }}));
+    removeUnfinished(folder, [](const fs::path&) { return true; });
+    EXPECT_FALSE(fs::exists(left));
+}
+
+// Killed in place of each of the writer's calls.
+TEST_F(StepFaults, AWriterThatIsKilledAtAnyCallLeavesTheOldFileOrTheNew) {
+    write();
+    const std::string before = tests::readBytes(path);
+    step = SortedStep::build(tests::randomField<float>(random, {60, 50, 40}, 0));
+    const std::string after = [&] {
+        const auto bytes = tests::written(step, "about");
+        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    }();
+    ASSERT_NE(before, after);
+    std::size_t old = 0;
+    for (std::size_t at = 0;; ++at) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            calls.killedAt = at;
+            write();
+            ::_exit(0);
+        }
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        const std::string found = tests::readBytes(path);
+        ASSERT_TRUE(found == before || found == after) << at;
+        old += found == before;
+        removeUnfinished(folder, [](const fs::path&) { return true; });
+        ASSERT_EQ(std::distance(fs::directory_iterator(folder), {}), 1) << at;
+        if (WIFEXITED(status)) {
+            EXPECT_EQ(found, after);
+            break;
+        }
+    }
+    EXPECT_GE(old, 5u);  // pieces, header, sync, rename
 }
 
 // What a disk holds after the power went: of each file the pages that were synced, and of those

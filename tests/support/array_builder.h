@@ -83,7 +83,7 @@ std::vector<T> ramp(std::size_t count) {
 }
 
 // Opens a file of these bytes.
-inline std::unique_ptr<timeseries::Reader> openBytes(const std::string& bytes) {
+inline std::unique_ptr<timeseries::Reader> openWritten(const std::string& bytes) {
     const std::filesystem::path path = tests::freshFolder() / "file.nrrd";
     tests::writeBytes(path, bytes);
     return open(path);

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "tests/support/damage.h"
+#include "tests/support/kept_steps.h"
 #include "tests/support/netcdf_builder.h"
 #include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
@@ -216,6 +217,15 @@ TEST(Exodus, NodesStandStillWithoutAWholeDisplacement) {
     const auto reader = open(write(what));
     EXPECT_EQ(reader->read(0, 1).grid, reader->variables()[0].grid);
     EXPECT_EQ(reader->variables()[0].grid->position(4), glm::dvec3(1, 1, 0));
+}
+
+// Those whose nodes move are not: the file on disk would not have their places.
+TEST(Exodus, StepsAreKeptWhereTheNodesStandStill) {
+    Written what;
+    for (std::size_t v = 0; v < what.atNodes.size(); ++v) tests::expectKept({write(what)}, v);
+    what.atNodes.insert(what.atNodes.end(), {"DISPLX", "DISPLY", "DISPLZ"});
+    const auto moving = open(write(what));
+    EXPECT_THAT(moving->sources(0, 0).files, testing::IsEmpty());
 }
 
 TEST(Exodus, KindsThatAreNotKnownAreTold) {

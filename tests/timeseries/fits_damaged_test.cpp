@@ -25,7 +25,7 @@ TEST(FitsDamaged, AnImageThatCannotBeReadCostsNoOther) {
     for (const auto& [more, why] :
          {std::pair(many, "three axes of space and one of time at most"),
           std::pair(cut, "bytes of values"), std::pair(noise, "expected a whole header")}) {
-        const auto reader = openBytes(slab({}) + more);
+        const auto reader = openWritten(slab({}) + more);
         ASSERT_EQ(reader->variables().size(), 1u) << why;
         EXPECT_EQ(valuesOf<std::int16_t>(*reader), ramp<std::int16_t>(24));
         ASSERT_EQ(reader->damaged().size(), 1u) << why;

@@ -20,11 +20,11 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(Fits, KeywordsPlaceACubeOfTheSky) {
-    const auto reader =
-        openBytes(slab({"CTYPE1  = 'RA---TAN'", "CRVAL1  = 52.5", "CDELT1  = -0.25",
-                        "CRPIX1  = 1.0", "CTYPE2  = 'DEC--TAN'", "CRVAL2  = 31.0", "CDELT2  = 0.25",
-                        "CRPIX2  = 2.0", "CUNIT2  = 'deg'", "CTYPE3  = 'VRAD'", "CRVAL3  = 7000.0",
-                        "CDELT3  = -100.0", "CRPIX3  = 3.0", "BUNIT   = 'Jy/beam'"}));
+    const auto reader = openWritten(
+        slab({"CTYPE1  = 'RA---TAN'", "CRVAL1  = 52.5", "CDELT1  = -0.25", "CRPIX1  = 1.0",
+              "CTYPE2  = 'DEC--TAN'", "CRVAL2  = 31.0", "CDELT2  = 0.25", "CRPIX2  = 2.0",
+              "CUNIT2  = 'deg'", "CTYPE3  = 'VRAD'", "CRVAL3  = 7000.0", "CDELT3  = -100.0",
+              "CRPIX3  = 3.0", "BUNIT   = 'Jy/beam'"}));
     const Variable& variable = reader->variables()[0];
     const auto& axes = variable.grid->axes();
     EXPECT_EQ(axes[0].name, "RA");
@@ -42,16 +42,16 @@ TEST(Fits, KeywordsPlaceACubeOfTheSky) {
 }
 
 TEST(Fits, PixelsWithoutStepsAreCountedAndTurnedAxesAreTold) {
-    const auto counted = openBytes(slab({"CDELT2  = 0.0"}));
+    const auto counted = openWritten(slab({"CDELT2  = 0.0"}));
     EXPECT_EQ(counted->variables()[0].grid->axes()[1].units, "index");
     EXPECT_THAT(counted->variables()[0].notes,
                 testing::Contains(HasSubstr("y is placed by index")));
     const auto turned =
-        openBytes(slab({"CD1_1   = 2.0", "CD2_2   = 2.0", "CDELT3  = 1.0", "CD1_2   = 0.5"}));
+        openWritten(slab({"CD1_1   = 2.0", "CD2_2   = 2.0", "CDELT3  = 1.0", "CD1_2   = 0.5"}));
     EXPECT_EQ(turned->variables()[0].grid->axes()[0].coordinates, (std::vector<double>{2, 4}));
     EXPECT_NEAR(turned->variables()[0].grid->axes()[1].coordinates[0], std::hypot(0.5, 2), 1e-12);
     EXPECT_THAT(turned->variables()[0].notes, ElementsAre(HasSubstr("turned")));
-    const auto mirrored = openBytes(slab(
+    const auto mirrored = openWritten(slab(
         {"PC1_1   = -1.0", "CDELT1  = 0.5", "CDELT2  = 1.0", "PC3_3   = 1000.0", "CDELT3  = 2.0"}));
     const auto& axes = mirrored->variables()[0].grid->axes();
     EXPECT_EQ(axes[0].coordinates, (std::vector<double>{-0.5, -1}));
@@ -61,8 +61,8 @@ TEST(Fits, PixelsWithoutStepsAreCountedAndTurnedAxesAreTold) {
 // CTYPE's last three letters (FITS 4.0, table 26).
 TEST(Fits, AxesThatAreNotEvenAreUnevenOrCounted) {
     const auto placed = [](const char* type) {
-        return openBytes(slab({fmt::format("CTYPE3  = '{}'", type), "CRVAL3  = 100.0",
-                               "CDELT3  = 10.0", "CRPIX3  = 1.0"}));
+        return openWritten(slab({fmt::format("CTYPE3  = '{}'", type), "CRVAL3  = 100.0",
+                                 "CDELT3  = 10.0", "CRPIX3  = 1.0"}));
     };
     const auto log = placed("WAVE-LOG");
     const auto& axis = log->variables()[0].grid->axes()[2];
@@ -80,7 +80,7 @@ TEST(Fits, AxesThatAreNotEvenAreUnevenOrCounted) {
 }
 
 TEST(Fits, AxesMayBeOfEachOthersCoordinates) {
-    const auto reader = openBytes(
+    const auto reader = openWritten(
         slab({"CTYPE1  = 'XX'", "CTYPE2  = 'YY'", "PC1_1   = 0.0", "PC2_2   = 0.0", "PC1_2   = 1.0",
               "PC2_1   = -1.0", "CDELT1  = 2.0", "CDELT2  = 3.0", "CUNIT1  = 'm'", "CUNIT2  = 's'",
               "CRVAL1  = 10.0", "CRVAL2  = 20.0", "CRPIX1  = 1.0", "CRPIX2  = 1.0"}));
@@ -100,7 +100,7 @@ void expectValues(int bitpix, const std::vector<std::string>& more, double zero)
     stored[1] = std::numeric_limits<Stored>::lowest();
     stored[2] = std::numeric_limits<Stored>::max();
     const auto reader =
-        openBytes(image(bitpix, {2, 3, 4}, more, bytesOf(stored, std::endian::big)));
+        openWritten(image(bitpix, {2, 3, 4}, more, bytesOf(stored, std::endian::big)));
     const auto values = valuesOf<T>(*reader);
     ASSERT_EQ(values.size(), stored.size());
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -132,7 +132,7 @@ TEST(Fits, UnsignedIntegersOf64BitsAreExact) {
             expected.push_back(first + i);
             stored.push_back(static_cast<std::int64_t>(first + i) ^ kLeast);
         }
-        const auto reader = openBytes(image(
+        const auto reader = openWritten(image(
             64, {2, 3, 4}, {"BZERO   =  9223372036854775808", "BSCALE  =                    1"},
             bytesOf(stored, std::endian::big)));
         EXPECT_EQ(valuesOf<std::uint64_t>(*reader), expected) << first;
@@ -153,16 +153,16 @@ TEST(Fits, IntegersWithAnOffsetAreExact) {
             stored.push_back(first + i);
             expected.push_back(first + i + offset);
         }
-        const auto reader = openBytes(image(64, {2, 3, 4}, {fmt::format("BZERO   = {}", offset)},
-                                            bytesOf(stored, std::endian::big)));
+        const auto reader = openWritten(image(64, {2, 3, 4}, {fmt::format("BZERO   = {}", offset)},
+                                              bytesOf(stored, std::endian::big)));
         EXPECT_EQ(valuesOf<std::int64_t>(*reader), expected) << offset;
         EXPECT_EQ(reader->variables()[0].type, ValueType::I64);
         EXPECT_EQ(reader->variables()[0].storedAs, fmt::format("BITPIX 64, offset {}", offset));
     }
     // Of 16 bits, too, where the offset alone is as large.
-    const auto far = openBytes(slab({"BZERO   = 1152921504606846977"}));
+    const auto far = openWritten(slab({"BZERO   = 1152921504606846977"}));
     EXPECT_EQ(valuesOf<std::int64_t>(*far)[5], (1ll << 60) + 1 + 5);
-    EXPECT_EQ(openBytes(slab({"BZERO   = 5"}))->variables()[0].type, ValueType::F64);
+    EXPECT_EQ(openWritten(slab({"BZERO   = 5"}))->variables()[0].type, ValueType::F64);
 }
 
 TEST(Fits, IntegersBeyond64BitsAreRefusedUnlessBlank) {
@@ -170,7 +170,7 @@ TEST(Fits, IntegersBeyond64BitsAreRefusedUnlessBlank) {
     std::vector<std::int64_t> stored(24, most - 1);
     stored[3] = most;
     const std::string bytes = bytesOf(stored, std::endian::big);
-    const auto reader = openBytes(image(64, {2, 3, 4}, {"BZERO   = 1"}, bytes));
+    const auto reader = openWritten(image(64, {2, 3, 4}, {"BZERO   = 1"}, bytes));
     EXPECT_THROW(
         {
             try {
@@ -184,12 +184,12 @@ TEST(Fits, IntegersBeyond64BitsAreRefusedUnlessBlank) {
         },
         FileError);
     const auto blank =
-        openBytes(image(64, {2, 3, 4}, {"BZERO   = 1", "BLANK   = 9223372036854775807"}, bytes));
+        openWritten(image(64, {2, 3, 4}, {"BZERO   = 1", "BLANK   = 9223372036854775807"}, bytes));
     const Field field = blank->read(0, 0);
     for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(field.missing[i], i == 3);
     EXPECT_EQ(std::get<std::vector<std::int64_t>>(field.values)[4], most);
     for (const char* zero : {"1.0E19", "-1.0E19", "9223372036854777856"})
-        EXPECT_THROW(openBytes(image(64, {2, 3, 4}, {std::string("BZERO   = ") + zero}, bytes)),
+        EXPECT_THROW(openWritten(image(64, {2, 3, 4}, {std::string("BZERO   = ") + zero}, bytes)),
                      FileError)
             << zero;
 }
@@ -200,14 +200,14 @@ TEST(Fits, BlankPixelsAreMissing) {
     const std::string bytes = bytesOf(stored, std::endian::big);
     for (const std::string zero : {"0", "32768"}) {
         const Field field =
-            openBytes(image(16, {2, 3, 4}, {"BLANK   = -99", "BZERO   = " + zero}, bytes))
+            openWritten(image(16, {2, 3, 4}, {"BLANK   = -99", "BZERO   = " + zero}, bytes))
                 ->read(0, 0);
         ASSERT_EQ(field.missing.size(), 24u);
         for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(field.missing[i], i == 5) << zero;
     }
     // Scaled ones are doubles, of which a blank one is no number.
-    const auto scaled =
-        openBytes(image(16, {2, 3, 4}, {"BLANK   = -99", "BSCALE  = 0.5", "BZERO   = 10"}, bytes));
+    const auto scaled = openWritten(
+        image(16, {2, 3, 4}, {"BLANK   = -99", "BSCALE  = 0.5", "BZERO   = 10"}, bytes));
     const auto values = valuesOf<double>(*scaled);
     for (std::size_t i = 0; i < 24; ++i) {
         if (i == 5)
@@ -215,7 +215,7 @@ TEST(Fits, BlankPixelsAreMissing) {
         else
             EXPECT_EQ(values[i], 10 + 0.5 * static_cast<double>(i));
     }
-    EXPECT_THAT(openBytes(slab({"BLANK   = -99"}))->read(0, 0).missing, IsEmpty());
+    EXPECT_THAT(openWritten(slab({"BLANK   = -99"}))->read(0, 0).missing, IsEmpty());
 }
 
 // Whatever their bits, scales and offsets.
@@ -223,9 +223,9 @@ template <typename Stored>
 void expectScaled(int bitpix, const std::string& scale, const std::string& zero) {
     std::vector<Stored> stored = ramp<Stored>(24);
     stored[3] = std::numeric_limits<Stored>::max();
-    const auto reader = openBytes(image(bitpix, {2, 3, 4},
-                                        {"BSCALE  = " + scale, "BZERO   = " + zero, "BLANK   = 7"},
-                                        bytesOf(stored, std::endian::big)));
+    const auto reader = openWritten(
+        image(bitpix, {2, 3, 4}, {"BSCALE  = " + scale, "BZERO   = " + zero, "BLANK   = 7"},
+              bytesOf(stored, std::endian::big)));
     const auto values = valuesOf<double>(*reader);
     for (std::size_t i = 0; i < 24; ++i) {
         if (i == 7) {
@@ -254,7 +254,7 @@ TEST(Fits, FloatsAreAsStored) {
     stored[3] = 1e-40f;
     stored[4] = std::nanf("");
     const auto values =
-        valuesOf<float>(*openBytes(image(-32, {2, 3, 4}, {}, bytesOf(stored, std::endian::big))));
+        valuesOf<float>(*openWritten(image(-32, {2, 3, 4}, {}, bytesOf(stored, std::endian::big))));
     for (std::size_t i = 0; i < 24; ++i) {
         if (i == 4)
             EXPECT_TRUE(std::isnan(values[i]));
@@ -268,16 +268,16 @@ TEST(Fits, ScaledFloatsKeepInfinities) {
     stored[1] = std::numeric_limits<float>::infinity();
     stored[3] = 1e-40f;
     const auto values = valuesOf<double>(
-        *openBytes(image(-32, {2, 3, 4}, {"BSCALE  = 2.0"}, bytesOf(stored, std::endian::big))));
+        *openWritten(image(-32, {2, 3, 4}, {"BSCALE  = 2.0"}, bytesOf(stored, std::endian::big))));
     for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(values[i], 2 * static_cast<double>(stored[i]));
 }
 
 TEST(Fits, AFourthAxisIsTimeAndOneOfOnePixelIsNone) {
     const std::string bytes = bytesOf(ramp<std::int16_t>(24), std::endian::big);
-    const auto one = openBytes(image(16, {2, 3, 4, 1}, {}, bytes));
+    const auto one = openWritten(image(16, {2, 3, 4, 1}, {}, bytes));
     EXPECT_EQ(one->variables()[0].time->points.size(), 1u);
     // Time may be any of them.
-    const auto first = openBytes(
+    const auto first = openWritten(
         image(16, {2, 3, 4},
               {"CTYPE1  = 'TIME'", "CRPIX1  = 1.0", "CRVAL1  = 5.0", "CDELT1  = 0.5"}, bytes));
     const TimeAxis& time = *first->variables()[0].time;
@@ -287,10 +287,10 @@ TEST(Fits, AFourthAxisIsTimeAndOneOfOnePixelIsNone) {
     const auto odd = valuesOf<std::int16_t>(*first, 1);
     ASSERT_EQ(odd.size(), 12u);
     for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(odd[i], static_cast<std::int16_t>(2 * i + 1));
-    const auto last = openBytes(image(16, {2, 3, 2, 2}, {"CTYPE4  = 'BEAM'"}, bytes));
+    const auto last = openWritten(image(16, {2, 3, 2, 2}, {"CTYPE4  = 'BEAM'"}, bytes));
     EXPECT_EQ(valuesOf<std::int16_t>(*last, 1)[0], 12);
     const auto endless =
-        openBytes(image(16, {2, 3, 4}, {"CTYPE3  = 'TIME'", "CDELT3  = 1E308"}, bytes));
+        openWritten(image(16, {2, 3, 4}, {"CTYPE3  = 'TIME'", "CDELT3  = 1E308"}, bytes));
     EXPECT_TRUE(endless->variables()[0].time->counted);
     EXPECT_THAT(last->variables()[0].notes,
                 testing::Contains("BEAM is taken for time: no axis says that it is"));
@@ -307,7 +307,7 @@ TEST(Fits, PolarisationIsNoPlace) {
     const std::vector<std::string> keys{"CTYPE3  = 'STOKES'", "CRVAL3  = 1.0",    "CRPIX3  = 1.0",
                                         "CDELT3  = 1.0",      "CTYPE4  = 'FREQ'", "CRVAL4  = 1.0E9",
                                         "CRPIX4  = 1.0",      "CDELT4  = 1.0E6"};
-    const auto reader = openBytes(
+    const auto reader = openWritten(
         image(16, {2, 3, 4, 5}, keys, bytesOf(ramp<std::int16_t>(120), std::endian::big)));
     ASSERT_THAT(namesOf(*reader), ElementsAre("STOKES=I", "STOKES=Q", "STOKES=U", "STOKES=V"));
     for (std::size_t v = 0; v < 4; ++v) {
@@ -320,10 +320,10 @@ TEST(Fits, PolarisationIsNoPlace) {
             EXPECT_EQ(values[i], i % 6 + 6 * (v + 4 * (i / 6))) << v << ' ' << i;
     }
     // Circular ones count down from -1.
-    const auto flat = openBytes(image(16, {2, 3, 2},
-                                      {"CTYPE3  = 'STOKES'", "CRVAL3  = -1.0", "CRPIX3  = 1.0",
-                                       "CDELT3  = -1.0", "EXTNAME = 'beam'"},
-                                      bytesOf(ramp<std::int16_t>(12), std::endian::big)));
+    const auto flat = openWritten(image(16, {2, 3, 2},
+                                        {"CTYPE3  = 'STOKES'", "CRVAL3  = -1.0", "CRPIX3  = 1.0",
+                                         "CDELT3  = -1.0", "EXTNAME = 'beam'"},
+                                        bytesOf(ramp<std::int16_t>(12), std::endian::big)));
     ASSERT_THAT(namesOf(*flat), ElementsAre("beam:STOKES=RR", "beam:STOKES=LL"));
     EXPECT_EQ(flat->variables()[1].grid->size(), (std::array<std::size_t, 3>{2, 3, 1}));
 }
@@ -335,9 +335,9 @@ TEST(Fits, EveryImageIsAVariable) {
     auto named = own;
     named.push_back("EXTNAME = 'ERROR'");
     const auto reader =
-        openBytes(image(16, {}, {}, "") + image(16, {2, 3, 4}, own, bytes, extension) +
-                  image(16, {2, 3, 4}, named, bytes, extension) +
-                  image(16, {2, 3, 4}, named, bytes, extension));
+        openWritten(image(16, {}, {}, "") + image(16, {2, 3, 4}, own, bytes, extension) +
+                    image(16, {2, 3, 4}, named, bytes, extension) +
+                    image(16, {2, 3, 4}, named, bytes, extension));
     ASSERT_EQ(reader->variables().size(), 3u);
     EXPECT_TRUE(reader->variables()[0].nameless);
     EXPECT_EQ(reader->variables()[1].name, "ERROR");

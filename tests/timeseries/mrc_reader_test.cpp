@@ -38,7 +38,7 @@ std::string slab(const BinaryHeader& header) {
 
 template <typename At>
 void expectPlaces(const BinaryHeader& header, const At& at) {
-    const auto reader = openBytes(slab(header));
+    const auto reader = openWritten(slab(header));
     const Grid& grid = *reader->variables()[0].grid;
     const auto values = valuesOf<std::int16_t>(*reader);
     ASSERT_EQ(values.size(), 24u);
@@ -54,7 +54,7 @@ void expectPlaces(const BinaryHeader& header, const At& at) {
 TEST(Mrc, TheCellPlacesVoxels) {
     expectPlaces(map(1),
                  [](double i, double j, double k) { return glm::dvec3(2 * i, 3 * j, 4 * k); });
-    const auto reader = openBytes(slab(map(1)));
+    const auto reader = openWritten(slab(map(1)));
     const Variable& variable = reader->variables()[0];
     EXPECT_EQ(variable.name, "density");
     EXPECT_EQ(variable.grid->axes()[0].units, "Å");
@@ -90,7 +90,7 @@ TEST(Mrc, CellsMayLean) {
                      return glm::dvec3(2 * i + 3 * j * c, 3 * j * s, 4 * k);
                  });
     // Of three other angles, edges have their lengths and these angles between them.
-    const auto reader = openBytes(slab(map(1).put(word(14), std::vector<float>{80, 95, 110})));
+    const auto reader = openWritten(slab(map(1).put(word(14), std::vector<float>{80, 95, 110})));
     const Grid& grid = *reader->variables()[0].grid;
     const auto step = [&](std::uint64_t to) { return grid.position(to) - grid.position(0); };
     const glm::dvec3 x = step(1), y = step(2), z = step(6);
@@ -103,7 +103,7 @@ TEST(Mrc, CellsMayLean) {
 }
 
 TEST(Mrc, WithoutACellVoxelsAreCubesAndItIsTold) {
-    const auto reader = openBytes(slab(map(1).put(word(11), std::vector<float>(6))));
+    const auto reader = openWritten(slab(map(1).put(word(11), std::vector<float>(6))));
     EXPECT_THAT(reader->variables()[0].notes, ElementsAre(HasSubstr("drawn as cubes")));
     EXPECT_EQ(reader->variables()[0].grid->axes()[2].coordinates,
               (std::vector<double>{0, 1, 2, 3}));
@@ -111,7 +111,7 @@ TEST(Mrc, WithoutACellVoxelsAreCubesAndItIsTold) {
 
 TEST(Mrc, AStackOfVolumesIsASeries) {
     const auto reader =
-        openBytes(slab(map(1).put(word(23), std::int32_t{401}).put(word(10), std::int32_t{2})));
+        openWritten(slab(map(1).put(word(23), std::int32_t{401}).put(word(10), std::int32_t{2})));
     EXPECT_EQ(reader->variables()[0].time->points.size(), 2u);
     EXPECT_EQ(valuesOf<std::int16_t>(*reader, 1)[0], 12);
     const auto path = freshFolder() / "stack.mrc";
@@ -126,11 +126,12 @@ void expectValues(std::int32_t mode) {
     values[2] = std::numeric_limits<T>::max();
     for (const std::endian order : {std::endian::little, std::endian::big}) {
         const std::string bytes = bytesOf(values, order);
-        EXPECT_EQ(valuesOf<T>(*openBytes(map(mode, order).bytes() + bytes)), values);
+        EXPECT_EQ(valuesOf<T>(*openWritten(map(mode, order).bytes() + bytes)), values);
         // Behind symmetry operators, and without a stamp.
         BinaryHeader header = map(mode, order);
         header.put(word(24), std::int32_t{160}).put(word(54), std::int32_t{0});
-        EXPECT_EQ(valuesOf<T>(*openBytes(header.bytes() + std::string(160, 'x') + bytes)), values);
+        EXPECT_EQ(valuesOf<T>(*openWritten(header.bytes() + std::string(160, 'x') + bytes)),
+                  values);
     }
 }
 
@@ -143,7 +144,7 @@ TEST(Mrc, EveryModeOfRealNumbersInEitherOrder) {
     const std::string bytes = bytesOf(ramp<std::uint8_t>(24));
     for (const std::int32_t flags : {0, 1}) {
         const auto reader =
-            openBytes(map(0).put(word(39), "IMOD"s).put(word(40), flags).bytes() + bytes);
+            openWritten(map(0).put(word(39), "IMOD"s).put(word(40), flags).bytes() + bytes);
         EXPECT_EQ(reader->variables()[0].type, flags == 1 ? ValueType::I8 : ValueType::U8);
     }
 }

@@ -25,6 +25,7 @@ struct Levels {
     std::string standardName, formulaTerms;
     std::vector<Term> terms;
     bool curvilinear = false;
+    std::map<std::string, std::string> attributes = {};  // more of the levels'
 };
 
 double level(std::size_t k) { return 0.25 + 0.25 * static_cast<double>(k); }
@@ -35,8 +36,9 @@ std::filesystem::path written(const Levels& how) {
     const int z = file.dimension("lev", kLevels), y = file.dimension("lat", kRows),
               x = file.dimension("lon", kColumns);
     const int lev = file.variable("lev", NC_DOUBLE, {z});
-    file.text(lev, "standard_name", how.standardName);
-    file.text(lev, "formula_terms", how.formulaTerms);
+    if (!how.standardName.empty()) file.text(lev, "standard_name", how.standardName);
+    if (!how.formulaTerms.empty()) file.text(lev, "formula_terms", how.formulaTerms);
+    for (const auto& [name, text] : how.attributes) file.text(lev, name.c_str(), text);
     file.text(lev, "units", "1");
     file.text(lev, "positive", "up");
     const std::vector<int> along = how.curvilinear ? std::vector<int>{y, x} : std::vector<int>{};
@@ -145,6 +147,20 @@ std::vector<Formula> formulas() {
          "Pa",
          [](std::size_t t, double s, std::size_t j, std::size_t i) {
              return 100 * s + 0.75 * s * surface(1e5, t, j, i);
+         }},
+        {"as CCM's files have it",
+         {"",
+          "",
+          {{"hyam", "z", "", ofLevel(0.5)},
+           {"hybm", "z", "", ofLevel(0.75)},
+           {"P0", "", "hPa", always(900)},
+           {"PS", "tyx", "Pa", ofColumn(1e5)}},
+          false,
+          {{"A_var", "hyam"}, {"B_var", "hybm"}, {"P0_var", "P0"}, {"PS_var", "PS"}}},
+         "air pressure",
+         "Pa",
+         [](std::size_t t, double s, std::size_t j, std::size_t i) {
+             return 0.5 * s * 9e4 + 0.75 * s * surface(1e5, t, j, i);
          }},
         {"sigma",
          {"atmosphere_sigma_coordinate",
@@ -306,7 +322,7 @@ TEST(NetcdfHeights, OfWrfAreItsGeopotentialWhereEachVariableStands) {
 
 // Land, for one.
 TEST(NetcdfHeights, ColumnsWithoutATermHaveNoPlace) {
-    Formula formula = formulas()[4];
+    Formula formula = formulas()[5];
     formula.levels.terms[1].at = [](std::size_t, std::size_t, std::size_t j, std::size_t i) {
         return i == 2 && j == 1 ? -999.0 : surface(4000, 0, j, i);
     };
@@ -315,6 +331,26 @@ TEST(NetcdfHeights, ColumnsWithoutATermHaveNoPlace) {
     EXPECT_EQ(variable.grid->mesh()->absent(), kLevels);
     EXPECT_FALSE(std::isfinite(variable.grid->position(2 + kColumns).z));
     EXPECT_TRUE(std::isfinite(variable.grid->position(3 + kColumns).z));
+}
+
+// CCM's levels are 1000 (A + B).
+TEST(NetcdfHeights, AReferencePressureThatIsNamedAndNotThereIsThousandHectopascals) {
+    const Levels levels{"",
+                        "",
+                        {{"hyam", "z", "", ofLevel(0.5)},
+                         {"hybm", "z", "", ofLevel(0.75)},
+                         {"PS", "tyx", "hPa", ofColumn(1000)}},
+                        false,
+                        {{"A_var", "hyam"}, {"B_var", "hybm"}, {"P0_var", "P0"}, {"PS_var", "PS"}}};
+    const auto reader = open(written(levels));
+    const std::size_t t = tests::indexOf(*reader, "T");
+    const Field values = reader->read(t, 1);
+    EXPECT_EQ(values.grid->axes()[2].units, "hPa");
+    for (std::size_t k = 0; k < kLevels; ++k)
+        EXPECT_NEAR(values.grid->position(3 + kColumns * (2 + kRows * k)).z,
+                    0.5 * level(k) * 1000 + 0.75 * level(k) * surface(1000, 1, 2, 3), 1e-3);
+    EXPECT_THAT(reader->variables()[t].notes,
+                testing::ElementsAre(testing::HasSubstr("a reference pressure of 1000 hPa")));
 }
 
 // Terms that are not there, of other dimensions, or that give one height for all.

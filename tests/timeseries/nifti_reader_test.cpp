@@ -31,7 +31,7 @@ BinaryHeader slabHeader() {
 // The place in the file's space of the voxel that holds each value: `at(i, j, k)`.
 template <typename At>
 void expectPlaces(const std::string& file, const At& at) {
-    const auto reader = openBytes(file);
+    const auto reader = openWritten(file);
     const Grid& grid = *reader->variables()[0].grid;
     const auto values = valuesOf<std::uint8_t>(*reader);
     ASSERT_EQ(values.size(), 24u);
@@ -67,7 +67,7 @@ TEST(Nifti, TheSformPlacesVoxels) {
 }
 
 TEST(Nifti, AxesAreCalledAsTheyGrowThroughTheBody) {
-    const auto reader = openBytes(
+    const auto reader = openWritten(
         slab(slabHeader()
                  .put(kSform, std::int16_t{4})
                  .put(kSrow, std::vector<float>{-2, 0, 0, 90, 0, 2, 0, -126, 0, 0, 2, -72})
@@ -98,7 +98,7 @@ TEST(Nifti, WithoutEitherTheSpacingsDo) {
     expectPlaces(slab(slabHeader().put(kPixdim, std::vector<float>{0, 0.5, 2, 3})),
                  [](double i, double j, double k) { return glm::dvec3(0.5 * i, 2 * j, 3 * k); });
     // So they do, and it is told, where the sform is flat.
-    const auto reader = openBytes(slab(
+    const auto reader = openWritten(slab(
         slabHeader().put(kSform, std::int16_t{1}).put(kPixdim, std::vector<float>{0, 0.5, 2, 3})));
     EXPECT_THAT(reader->variables()[0].notes, ElementsAre(HasSubstr("placed by pixdim")));
     EXPECT_EQ(reader->variables()[0].grid->axes()[0].coordinates, (std::vector<double>{0, 0.5}));
@@ -106,28 +106,28 @@ TEST(Nifti, WithoutEitherTheSpacingsDo) {
 
 TEST(Nifti, NothingIsInventedWhereSpacingsAreNone) {
     for (const float none : {0.0f, std::nanf("")}) {
-        const auto reader = openBytes(nifti1(kU8, {4, 2, 3, 2, 2})
-                                          .put(kPixdim, std::vector<float>{0, none, 1, 1, none})
-                                          .bytes() +
-                                      bytesOf(ramp<std::uint8_t>(24)));
+        const auto reader = openWritten(nifti1(kU8, {4, 2, 3, 2, 2})
+                                            .put(kPixdim, std::vector<float>{0, none, 1, 1, none})
+                                            .bytes() +
+                                        bytesOf(ramp<std::uint8_t>(24)));
         const Variable& variable = reader->variables()[0];
         EXPECT_EQ(variable.grid->axes()[0].units, "index");
         EXPECT_THAT(variable.notes, testing::Contains(HasSubstr("placed by index")));
         EXPECT_TRUE(variable.time->counted);
-        const auto turned = openBytes(slab(slabHeader()
-                                               .put(kPixdim, std::vector<float>{1, none, 1, 1})
-                                               .put(kQform, std::int16_t{1})));
+        const auto turned = openWritten(slab(slabHeader()
+                                                 .put(kPixdim, std::vector<float>{1, none, 1, 1})
+                                                 .put(kQform, std::int16_t{1})));
         EXPECT_EQ(turned->variables()[0].grid->axes()[0].units, "index");
     }
 }
 
 TEST(Nifti, TheFourthDimensionIsTime) {
-    const auto reader = openBytes(nifti1(kI16, {4, 2, 3, 4, 5})
-                                      .put(kPixdim, std::vector<float>{0, 1, 1, 1, 2.5f})
-                                      .put(kToffset, 10.0f)
-                                      .put(kUnits, std::uint8_t{2 + 8})
-                                      .bytes() +
-                                  bytesOf(ramp<std::int16_t>(120)));
+    const auto reader = openWritten(nifti1(kI16, {4, 2, 3, 4, 5})
+                                        .put(kPixdim, std::vector<float>{0, 1, 1, 1, 2.5f})
+                                        .put(kToffset, 10.0f)
+                                        .put(kUnits, std::uint8_t{2 + 8})
+                                        .bytes() +
+                                    bytesOf(ramp<std::int16_t>(120)));
     const TimeAxis& time = *reader->variables()[0].time;
     EXPECT_EQ(time.units, "s");
     ASSERT_EQ(time.points.size(), 5u);
@@ -149,7 +149,7 @@ void expectValues(std::int16_t type) {
         for (const std::string& head :
              {nifti1(type, {3, 2, 3, 4}, order).bytes(), nifti2(type, {3, 2, 3, 4}, order).bytes()})
             for (const std::string& file : {head + bytes, byGzip(head + bytes)})
-                EXPECT_EQ(valuesOf<T>(*openBytes(file)), values) << type;
+                EXPECT_EQ(valuesOf<T>(*openWritten(file)), values) << type;
     }
 }
 
@@ -168,7 +168,7 @@ TEST(Nifti, EveryTypeOfNumberInEitherOrderPlainOrPacked) {
 
 TEST(Nifti, ScaledValuesAreInDouble) {
     const auto open = [](float slope, float offset) {
-        return openBytes(slab(slabHeader().put(kSlope, std::vector<float>{slope, offset})));
+        return openWritten(slab(slabHeader().put(kSlope, std::vector<float>{slope, offset})));
     };
     const auto reader = open(0.1f, -3);
     EXPECT_EQ(reader->variables()[0].type, ValueType::F64);
@@ -182,10 +182,10 @@ TEST(Nifti, ScaledValuesAreInDouble) {
 }
 
 TEST(Nifti, LabelsAreCategories) {
-    const auto reader = openBytes(slab(slabHeader().put(kIntent, std::int16_t{1002})));
+    const auto reader = openWritten(slab(slabHeader().put(kIntent, std::int16_t{1002})));
     EXPECT_TRUE(reader->variables()[0].categories);
     EXPECT_TRUE(reader->read(0, 0).categories);
-    EXPECT_FALSE(openBytes(slab(slabHeader()))->variables()[0].categories);
+    EXPECT_FALSE(openWritten(slab(slabHeader()))->variables()[0].categories);
 }
 
 TEST(Nifti, AHeaderBesideItsValues) {
@@ -232,7 +232,7 @@ TEST(Nifti, WhatIsNoScalarOnAGridIsNamed) {
                 HasSubstr("sizeof_hdr: expected 348, found 347"));
     // The byte order of its size is not that of its dimensions.
     EXPECT_THAT(refused(nifti2(kU8, {3, 2, 3, 4}).put(0, "\0\0\2\x1c"s)), HasSubstr("sizeof_hdr"));
-    EXPECT_EQ(valuesOf<std::uint8_t>(*openBytes(slab(slabHeader().put(108, 0.0f)))),
+    EXPECT_EQ(valuesOf<std::uint8_t>(*openWritten(slab(slabHeader().put(108, 0.0f)))),
               ramp<std::uint8_t>(24));
 }
 

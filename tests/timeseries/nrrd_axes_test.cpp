@@ -25,10 +25,10 @@ const std::vector<double>& coordinates(const Reader& reader, std::size_t axis) {
 
 TEST(Nrrd, SpacingsMinimumsCentersLabelsAndUnitsPlaceAxes) {
     const auto reader =
-        openBytes(slab("spacings: 2 -0.5 nan\naxis mins: 10 nan 0\naxis maxs: nan nan 3\n"
-                       "centers: node cell node\nlabels: \"lon\" \"lat\" \"depth\"\n"
-                       "units: \"km\" \"mm\" \"m\"\nthicknesses: 9 9 9\ncontent: ramp\n"
-                       "sample units: K\n"));
+        openWritten(slab("spacings: 2 -0.5 nan\naxis mins: 10 nan 0\naxis maxs: nan nan 3\n"
+                         "centers: node cell node\nlabels: \"lon\" \"lat\" \"depth\"\n"
+                         "units: \"km\" \"mm\" \"m\"\nthicknesses: 9 9 9\ncontent: ramp\n"
+                         "sample units: K\n"));
     EXPECT_EQ(coordinates(*reader, 0), (std::vector<double>{10, 12}));
     EXPECT_EQ(coordinates(*reader, 1), (std::vector<double>{0, -0.5, -1}));
     EXPECT_EQ(coordinates(*reader, 2), (std::vector<double>{0, 1, 2, 3}));
@@ -45,15 +45,15 @@ TEST(Nrrd, CellsBeginAtTheirBorder) {
     // Three cells of 4 from 0 to 12 have their middles at 2, 6 and 10; by teem's default so have
     // those of an axis without a center.
     const auto reader =
-        openBytes(slab("spacings: 1 nan 4\naxis mins: 0 0 0\naxis maxs: 2 12 16\n"
-                       "centers: ??? cell cell\n"));
+        openWritten(slab("spacings: 1 nan 4\naxis mins: 0 0 0\naxis maxs: 2 12 16\n"
+                         "centers: ??? cell cell\n"));
     EXPECT_EQ(coordinates(*reader, 0), (std::vector<double>{0.5, 1.5}));
     EXPECT_EQ(coordinates(*reader, 1), (std::vector<double>{2, 6, 10}));
     EXPECT_EQ(coordinates(*reader, 2), (std::vector<double>{2, 6, 10, 14}));
 }
 
 TEST(Nrrd, AxesWithoutSpacingAreCountedAndSaySo) {
-    const auto reader = openBytes(slab("spacings: 1 nan 1\naxis mins: nan nan 1e300\n"));
+    const auto reader = openWritten(slab("spacings: 1 nan 1\naxis mins: nan nan 1e300\n"));
     const Variable& variable = reader->variables()[0];
     EXPECT_EQ(variable.grid->axes()[1].units, "index");
     EXPECT_EQ(variable.grid->axes()[2].units, "index");
@@ -82,7 +82,7 @@ TEST(Nrrd, RotatedAndShearedGridsLieWhereTheirDirectionsSay) {
          {Case{"(1.6,1.2,0) (-0.6,0.8,0) (0,0,3)", {{1.6, 1.2, 0}, {-0.6, 0.8, 0}, {0, 0, 3}}},
           Case{"(1,0,0) (1,1,0) (0,0,-2)", {{1, 0, 0}, {1, 1, 0}, {0, 0, -2}}},
           Case{"(0,0.5,0.5) (1,0,0) (0,2,-1)", {{0, 0.5, 0.5}, {1, 0, 0}, {0, 2, -1}}}}) {
-        const auto reader = openBytes(
+        const auto reader = openWritten(
             slab(fmt::format("space: RAS\nspace origin: (-10,20,1e6)\nspace units: \"mm\" \"mm\" "
                              "\"mm\"\nspace directions: {}\n",
                              c.directions)));
@@ -103,7 +103,7 @@ TEST(Nrrd, DirectionsThatPlaceNothingAreDrawnInIndexSpace) {
           "space directions: (1,0,0) (0,1,0) (1,1,1e-9)",
           "space directions: (1e300,1e300,0) (0,1,0) (0,1e308,1e308)",
           "space directions: (0.8,0.6,0) (-0.6,0.8,0) (0,0,1)\nspace units: \"m\" \"mm\" \"m\""}) {
-        const auto reader = openBytes(slab(fmt::format("space: RAS\n{}\n", space)));
+        const auto reader = openWritten(slab(fmt::format("space: RAS\n{}\n", space)));
         EXPECT_EQ(valuesOf<std::uint8_t>(*reader), ramp<std::uint8_t>(24));
         EXPECT_EQ(coordinates(*reader, 1), (std::vector<double>{0, 1, 2}));
         EXPECT_THAT(reader->variables()[0].notes, ElementsAre(HasSubstr("index space"))) << space;
@@ -112,58 +112,58 @@ TEST(Nrrd, DirectionsThatPlaceNothingAreDrawnInIndexSpace) {
 
 TEST(Nrrd, ObliquePlanesAndRowsStandInSpace) {
     const auto plane =
-        openBytes(nrrd("type: uchar\ndimension: 2\nsizes: 2 3\nencoding: raw\nspace: RAS\n"
-                       "space directions: (0.6,0,0.8) (0,2,0)\nspace origin: (1,2,3)\n",
-                       "abcdef"));
+        openWritten(nrrd("type: uchar\ndimension: 2\nsizes: 2 3\nencoding: raw\nspace: RAS\n"
+                         "space directions: (0.6,0,0.8) (0,2,0)\nspace origin: (1,2,3)\n",
+                         "abcdef"));
     const Grid& grid = *plane->variables()[0].grid;
     EXPECT_LT(glm::distance(grid.position(5), {1.6, 6, 3.8}), 1e-12);
     EXPECT_NEAR(glm::length(grid.cell(0)[2]), 1, 1e-12) << "as thick as its smallest step";
     EXPECT_NEAR(glm::dot(grid.cell(0)[2], grid.cell(0)[0]), 0, 1e-12) << "and upright";
     const auto row =
-        openBytes(nrrd("type: uchar\ndimension: 1\nsizes: 6\nencoding: raw\n"
-                       "space: RAS\nspace directions: (1,1,1)\n",
-                       "abcdef"));
+        openWritten(nrrd("type: uchar\ndimension: 1\nsizes: 6\nencoding: raw\n"
+                         "space: RAS\nspace directions: (1,1,1)\n",
+                         "abcdef"));
     EXPECT_LT(glm::distance(row->variables()[0].grid->position(5), {5, 5, 5}), 1e-12);
 }
 
 TEST(Nrrd, ObliqueStepsOfASeriesShareTheirPlaces) {
     // Time in space, as the fourth coordinate, and as the first axis.
     const auto reader =
-        openBytes(nrrd("type: uchar\ndimension: 4\nsizes: 2 2 3 1\nencoding: raw\nspace: RAST\n"
-                       "space directions: (0,0,0,5) (0.6,0.8,0,0) (-0.8,0.6,0,0) (0,0,1,0)\n",
-                       bytesOf(ramp<std::uint8_t>(12))));
+        openWritten(nrrd("type: uchar\ndimension: 4\nsizes: 2 2 3 1\nencoding: raw\nspace: RAST\n"
+                         "space directions: (0,0,0,5) (0.6,0.8,0,0) (-0.8,0.6,0,0) (0,0,1,0)\n",
+                         bytesOf(ramp<std::uint8_t>(12))));
     EXPECT_EQ(reader->variables()[0].time->points.size(), 2u);
     expectPlaces(*reader->variables()[0].grid, {}, {{0.6, 0.8, 0}, {-0.8, 0.6, 0}, {0, 0, 1}});
     EXPECT_EQ(valuesOf<std::uint8_t>(*reader, 1), (std::vector<std::uint8_t>{1, 3, 5, 7, 9, 11}));
     // A direction that leans into time has no place in space.
     const auto leaning =
-        openBytes(nrrd("type: uchar\ndimension: 4\nsizes: 2 2 3 1\nencoding: raw\nspace: RAST\n"
-                       "space directions: (0,0,0,5) (0.6,0.8,0,1) (-0.8,0.6,0,0) (0,0,1,0)\n",
-                       bytesOf(ramp<std::uint8_t>(12))));
+        openWritten(nrrd("type: uchar\ndimension: 4\nsizes: 2 2 3 1\nencoding: raw\nspace: RAST\n"
+                         "space directions: (0,0,0,5) (0.6,0.8,0,1) (-0.8,0.6,0,0) (0,0,1,0)\n",
+                         bytesOf(ramp<std::uint8_t>(12))));
     EXPECT_THAT(leaning->variables()[0].notes, ElementsAre(HasSubstr("index space")));
 }
 
 TEST(Nrrd, LeftHandedSpacesSayThatThePictureIsMirrored) {
     const auto reader =
-        openBytes(slab("space: LAS\nspace directions: (1,0,0) (0,1,1e-12) (0,0,1)\n"
-                       "space units: \"mm\" \"mm\" \"mm\"\n"));
+        openWritten(slab("space: LAS\nspace directions: (1,0,0) (0,1,1e-12) (0,0,1)\n"
+                         "space units: \"mm\" \"mm\" \"mm\"\n"));
     EXPECT_EQ(reader->variables()[0].grid->axes()[1].name, "anterior");
     EXPECT_EQ(reader->variables()[0].grid->axes()[1].units, "mm");
     EXPECT_THAT(reader->variables()[0].notes, ElementsAre(HasSubstr("mirrored")));
     const auto oblique =
-        openBytes(slab("space: LAS\nspace directions: (0.8,0.6,0) (-0.6,0.8,0) (0,0,1)\n"));
+        openWritten(slab("space: LAS\nspace directions: (0.8,0.6,0) (-0.6,0.8,0) (0,0,1)\n"));
     EXPECT_THAT(oblique->variables()[0].notes, ElementsAre(HasSubstr("mirrored")));
     expectPlaces(*oblique->variables()[0].grid, {}, {{0.8, 0.6, 0}, {-0.6, 0.8, 0}, {0, 0, 1}});
 }
 
 TEST(Nrrd, PlanesAndRowsAreOneLayer) {
-    const auto plane = openBytes(
+    const auto plane = openWritten(
         nrrd("type: uchar\ndimension: 2\nsizes: 2 3\nencoding: raw\nspacings: 1 1\n", "abcdef"));
     EXPECT_THAT(plane->variables()[0].grid->size(), ElementsAre(2, 3, 1));
     const auto row =
-        openBytes(nrrd("type: uchar\ndimension: 1\nsizes: 6\nencoding: raw\n", "abcdef"));
+        openWritten(nrrd("type: uchar\ndimension: 1\nsizes: 6\nencoding: raw\n", "abcdef"));
     EXPECT_THAT(row->variables()[0].grid->size(), ElementsAre(6, 1, 1));
-    const auto movie = openBytes(
+    const auto movie = openWritten(
         nrrd("type: uchar\ndimension: 3\nsizes: 2 1 3\nencoding: raw\nkinds: space space time\n",
              "abcdef"));
     EXPECT_EQ(movie->variables()[0].time->points.size(), 3u);
@@ -172,9 +172,9 @@ TEST(Nrrd, PlanesAndRowsAreOneLayer) {
 
 TEST(Nrrd, StubsAreNoAxes) {
     const auto reader =
-        openBytes(nrrd("type: uchar\ndimension: 5\nsizes: 1 2 3 1 4\nencoding: raw\n"
-                       "kinds: scalar space space space time\n",
-                       bytesOf(ramp<std::uint8_t>(24))));
+        openWritten(nrrd("type: uchar\ndimension: 5\nsizes: 1 2 3 1 4\nencoding: raw\n"
+                         "kinds: scalar space space space time\n",
+                         bytesOf(ramp<std::uint8_t>(24))));
     EXPECT_THAT(reader->variables()[0].grid->size(), ElementsAre(2, 3, 1));
     EXPECT_EQ(valuesOf<std::uint8_t>(*reader, 1), (std::vector<std::uint8_t>{6, 7, 8, 9, 10, 11}));
 }
@@ -194,17 +194,17 @@ TEST(Nrrd, TimesComeFromKeysThatNameTheAxis) {
     const std::string kinds = "kinds: space space space time\nlabels: \"\" \"\" \"\" \"day\"\n";
     for (const char* key : {"days:=2 3.5 30", "Day:=2, 3.5, 30", "times:=2 3.5 30",
                             "axis 3 index values:=2 3.5 30", "MultiVolume.FrameLabels:=2,3.5,30"}) {
-        const auto reader = openBytes(movie(kinds + key + "\n"));
+        const auto reader = openWritten(movie(kinds + key + "\n"));
         EXPECT_EQ(times(*reader), (std::vector<double>{2, 3.5, 30})) << key;
         EXPECT_EQ(reader->variables()[0].time->name, "day") << key;
     }
-    EXPECT_EQ(openBytes(movie(kinds + "days:=2 3 30\n"))->variables()[0].time->units, "days");
+    EXPECT_EQ(openWritten(movie(kinds + "days:=2 3 30\n"))->variables()[0].time->units, "days");
 }
 
 TEST(Nrrd, KeysThatDoNotNameTimesAreNotTaken) {
     for (const char* key : {"days:=2 3", "days:=2 3 4 5", "days:=2 3 x", "days:=2 3 nan",
                             "weights:=2 3 4", "days:=1 2 3\ntimes:=4 5 6"}) {
-        const auto reader = openBytes(movie(fmt::format(
+        const auto reader = openWritten(movie(fmt::format(
             "kinds: space space space time\nlabels: \"\" \"\" \"\" \"day\"\n{}\n", key)));
         EXPECT_EQ(times(*reader), (std::vector<double>{0, 1, 2})) << key;
         EXPECT_EQ(reader->variables()[0].time->name, "step") << key;
@@ -212,30 +212,30 @@ TEST(Nrrd, KeysThatDoNotNameTimesAreNotTaken) {
 }
 
 TEST(Nrrd, EvenTimesComeFromTheAxis) {
-    const auto reader = openBytes(
+    const auto reader = openWritten(
         movie("kinds: space space space time\nspacings: 1 1 1 0.5\naxis mins: nan nan nan 10\n"
               "units: \"\" \"\" \"\" \"ms\"\n"));
     EXPECT_EQ(times(*reader), (std::vector<double>{10, 10.5, 11}));
     EXPECT_EQ(reader->variables()[0].time->units, "ms");
 
     const auto dated =
-        openBytes(movie("kinds: space space space time\nspacings: 1 1 1 6\n"
-                        "units: \"\" \"\" \"\" \"hours since 2000-01-01\"\n"));
+        openWritten(movie("kinds: space space space time\nspacings: 1 1 1 6\n"
+                          "units: \"\" \"\" \"\" \"hours since 2000-01-01\"\n"));
     EXPECT_EQ(dated->variables()[0].time->points[2].date, "2000-01-01 12:00:00");
 
     const auto space =
-        openBytes(movie("space: 3D-right-handed-time\n"
-                        "space directions: (1,0,0,0) (0,1,0,0) (0,0,1,0) (0,0,0,4)\n"
-                        "space origin: (0,0,0,20)\nspace units: \"mm\" \"mm\" \"mm\" \"s\"\n"));
+        openWritten(movie("space: 3D-right-handed-time\n"
+                          "space directions: (1,0,0,0) (0,1,0,0) (0,0,1,0) (0,0,0,4)\n"
+                          "space origin: (0,0,0,20)\nspace units: \"mm\" \"mm\" \"mm\" \"s\"\n"));
     EXPECT_EQ(times(*space), (std::vector<double>{20, 24, 28}));
     EXPECT_EQ(space->variables()[0].time->units, "s");
 }
 
 TEST(Nrrd, TheSlowestOfFourUntoldAxesIsTimeAndANoteSaysSo) {
-    const auto reader = openBytes(movie(""));
+    const auto reader = openWritten(movie(""));
     EXPECT_EQ(reader->variables()[0].time->points.size(), 3u);
     EXPECT_THAT(reader->variables()[0].notes, testing::Contains(HasSubstr("taken for time")));
-    const auto labelled = openBytes(nrrd(
+    const auto labelled = openWritten(nrrd(
         "type: uchar\ndimension: 4\nsizes: 3 2 2 2\nencoding: raw\nlabels: \"t\" \"\" \"\" \"\"\n",
         bytesOf(ramp<std::uint8_t>(24))));
     EXPECT_EQ(valuesOf<std::uint8_t>(*labelled, 1),

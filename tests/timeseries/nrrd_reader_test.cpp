@@ -30,7 +30,7 @@ void expectExact(const std::string& type, ValueType expected) {
     const std::vector<T> values = telling<T>();
     for (const std::endian order : {std::endian::little, std::endian::big})
         for (const char* encoding : {"raw", "gzip", "bzip2"}) {
-            const auto reader = openBytes(
+            const auto reader = openWritten(
                 nrrd(fmt::format("type: {}\ndimension: 3\nsizes: 2 2 2\nendian: {}\nencoding: {}\n",
                                  type, order == std::endian::little ? "little" : "big", encoding),
                      encoded(encoding, bytesOf(values, order))));
@@ -39,7 +39,7 @@ void expectExact(const std::string& type, ValueType expected) {
         }
     std::string text;
     for (const T value : values) text += fmt::format("{} ", value);
-    const auto reader = openBytes(
+    const auto reader = openWritten(
         nrrd(fmt::format("type: {}\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n", type), text));
     EXPECT_EQ(valuesOf<T>(*reader), values) << type << " as text";
 }
@@ -49,7 +49,7 @@ TEST(Nrrd, ManyValuesAreExact) {
     std::vector<std::uint16_t> values(1000 * 110 * 100);
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = static_cast<std::uint16_t>(i * 40'503 >> 8);
-    const auto reader = openBytes(
+    const auto reader = openWritten(
         nrrd("type: uint16\ndimension: 3\nsizes: 1000 110 100\nendian: little\nencoding: raw\n",
              bytesOf(values, std::endian::little)));
     EXPECT_TRUE(valuesOf<std::uint16_t>(*reader) == values);
@@ -89,8 +89,9 @@ TEST(Nrrd, FilesWhoseArraysHaveNoNameMakeASeries) {
 }
 
 TEST(Nrrd, TextTakesCommasSignsNansAndInfinities) {
-    const auto reader = openBytes(nrrd("type: float\ndimension: 3\nsizes: 5 1 1\nencoding: text\n",
-                                       "+1.5, nan\n-inf,,1e3\r\n 1e-50"));
+    const auto reader =
+        openWritten(nrrd("type: float\ndimension: 3\nsizes: 5 1 1\nencoding: text\n",
+                         "+1.5, nan\n-inf,,1e3\r\n 1e-50"));
     const auto values = valuesOf<float>(*reader);
     EXPECT_EQ(values[0], 1.5f);
     EXPECT_TRUE(std::isnan(values[1]));
@@ -129,7 +130,7 @@ TEST(Nrrd, TimeStandsOnAnyAxisAndDirectionsPutSpaceInOrder) {
         // Each value is the place it has in the file.
         const auto stored = ramp<std::uint16_t>(5 * 3 * 4 * 6);
         for (const char* encoding : {"raw", "gzip", "bzip2"}) {
-            const auto reader = openBytes(
+            const auto reader = openWritten(
                 nrrd(fmt::format("type: ushort\ndimension: 4\nspace dimension: 3\nsizes:{}\n"
                                  "space directions:{}\nkinds:{}\nspace origin: (1,10,100)\n"
                                  "endian: little\nencoding: {}\n",
@@ -160,7 +161,7 @@ TEST(Nrrd, StepsLargerThanTheBufferAreReadWhole) {
     for (const char* encoding : {"raw", "gzip", "bzip2"})
         for (const char* directions :
              {"(1,0,0) (0,1,0) none", "(0,1,0) (1,0,0) none", "none (1,0,0) (0,0,1)"}) {
-            const auto reader = openBytes(
+            const auto reader = openWritten(
                 nrrd(fmt::format("type: uint\ndimension: 3\nspace dimension: 3\nsizes: 70001 2 3\n"
                                  "space directions: {}\nkinds: {}\nendian: big\nencoding: {}\n",
                                  directions,
@@ -191,10 +192,10 @@ TEST(Nrrd, CompressedStreamsBehindEachOtherAreOne) {
                 packed += encoded(encoding, bytes.substr(at, part));
             for (const char* behind : {"", "BZ", "\n# not packed\n"}) {
                 const auto reader =
-                    openBytes(nrrd("type: uchar\ndimension: 4\nsizes: 300 20 10 5\nbyte skip: 4\n"
-                                   "encoding: " +
-                                       encoding + "\n",
-                                   packed + behind));
+                    openWritten(nrrd("type: uchar\ndimension: 4\nsizes: 300 20 10 5\nbyte skip: 4\n"
+                                     "encoding: " +
+                                         encoding + "\n",
+                                     packed + behind));
                 for (const std::size_t step : {4u, 0u, 3u}) {
                     const auto values = valuesOf<std::uint8_t>(*reader, step);
                     ASSERT_EQ(values.size(), 60000u);

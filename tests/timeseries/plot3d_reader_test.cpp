@@ -8,8 +8,10 @@
 
 #include "tests/support/damage.h"
 #include "tests/support/files.h"
+#include "tests/support/kept_steps.h"
 #include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
+#include "timeseries/readers/series_files.h"
 
 namespace timeseries::plot3d {
 namespace {
@@ -143,6 +145,25 @@ TEST(Plot3d, TimesOfASeriesAreThoseOfItsFiles) {
     const auto twice = openReader(files);
     EXPECT_EQ(twice->variables()[0].time->name, "number");
     EXPECT_EQ(timesOf(*twice), (std::vector{2.0, 4.0, 8.0}));
+}
+
+TEST(Plot3d, AFolderIsOfItsFlows) {
+    for (const auto& [xyz, q] : {std::pair{"a.xyz", "a.q"}, {"combxyz.bin", "combq.bin"}}) {
+        const std::filesystem::path folder = freshFolder();
+        places(xyz, {});
+        const auto values = flow(q, {}, 0.5);
+        const auto series = expandSeries(std::span(&folder, 1));
+        EXPECT_THAT(series.files, testing::ElementsAre(values));
+        EXPECT_EQ(series.recognised, std::string(q) + ", the only file to open here");
+        EXPECT_FALSE(isReadable(testFolder() / xyz));
+        EXPECT_THAT(refusalOf(testFolder() / xyz), HasSubstr("found a PLOT3D file of places"));
+    }
+}
+
+TEST(Plot3d, StepsAreKept) {
+    freshFolder();
+    places("a.xyz", {});
+    expectKept({flow("a.2.q", {}, 0.5), flow("a.4.q", {}, 0.75)}, 1);
 }
 
 TEST(Plot3d, ATimeThatIsNoNumberIsNone) {

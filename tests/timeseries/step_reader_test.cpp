@@ -10,6 +10,7 @@
 #include "tests/support/read_variables.h"
 #include "tests/support/step_bytes.h"
 #include "timeseries/readers/step_about.h"
+#include "timeseries/series/step_loader.h"
 #include "timeseries/series/step_maker.h"
 
 namespace timeseries {
@@ -94,6 +95,35 @@ TEST(StepReader, SeveralAreASeriesByTheirTimesAndAreNotSortedAgain) {
     const RangeSet some({Range{{Number(0.0)}, {Number(1.0)}}});
     StepMaker kept(openReader(paths), 0, some);
     EXPECT_EQ(kept.make(2)->size(), SortedStep::build(fieldOf({40, 30, 3}, 2)).count(some));
+}
+
+// Who draws a step that came does not wait for the disk.
+TEST(StepReader, WhatIsLookedAtIsReadBeforeAStepComes) {
+    std::vector<fs::path> paths;
+    for (int i = 0; i < 2; ++i)
+        paths.push_back(
+            put(tests::testFolder() / fmt::format("u_{}.isostep", i),
+                tests::written(SortedStep::build(fieldOf({300, 300, 3}, static_cast<unsigned>(i))),
+                               textOf(aboutAt(0.5 * i)))));
+    const RangeSet some({Range{{Number(0.0)}, {Number(0.05)}}});
+    StepLoader loader(
+        openReader(paths), 0, RangeSet::everything(), [] {}, Ready::Whole);
+    const auto come = [&](std::size_t step, const RangeSet& looked) {
+        loader.want({step}, StepLoader::Haste::Waited, looked);
+        return std::get<Loaded>(*loader.waitAndPoll()).sorted;
+    };
+    const auto none = come(0, {});
+    ASSERT_TRUE(none->file());
+    const std::uint64_t tables = none->pointBytes(), each = sizeof(float) + sizeof(std::uint32_t);
+    EXPECT_LT(tables, 1000u);
+    const auto read = come(1, some);
+    const auto runs = read->select(some);
+    ASSERT_GT(runs.front().count, 100u);
+    const std::uint64_t before = read->pointBytes();
+    EXPECT_GE(before, tables + runs.front().count * each);
+    EXPECT_LT(before, read->size() * each);
+    (void)read->columns(runs);
+    EXPECT_EQ(read->pointBytes(), before);
 }
 
 TEST(StepReader, WhatIsNoStepOfItsOwnIsRefused) {

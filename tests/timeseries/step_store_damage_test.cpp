@@ -128,7 +128,7 @@ TEST_F(StepStores, AWriterThatIsKilledLeavesTheOldOrTheNew) {
     const auto begin = std::chrono::steady_clock::now();
     (void)maker()->keep(0);
     const auto whole = std::chrono::steady_clock::now() - begin;
-    for (int i = 0; i < tests::rounds(60); ++i) {
+    for (int i = 0; i < tests::rounds(500); ++i) {
         const int m = 20 + i;
         nrrdOf(file, m);
         const pid_t child = ::fork();

@@ -7,6 +7,7 @@
 
 #include "tests/support/array_builder.h"
 #include "tests/support/hdf_file.h"
+#include "tests/support/kept_steps.h"
 #include "tests/support/netcdf_builder.h"
 #include "tests/support/read_variables.h"
 #include "tests/support/shared_data.h"
@@ -239,6 +240,30 @@ TEST(VtkHdf, CellsThatDoNotChangeStandOnce) {
     double volume = 0;
     for (std::uint64_t i = 0; i < 12; ++i) volume += tests::volume(*second.grid->mesh(), i);
     EXPECT_NEAR(volume, 16, 1e-4);
+}
+
+TEST(VtkHdf, StepsAreKeptWhereNothingMoves) {
+    const Cubes cubes(0, 2);
+    const auto written = [&](const Numbers& pointsAt) {
+        HdfFile file;
+        Parts parts;
+        parts.add(cubes);
+        parts.add(cubes);
+        parts.put(file);
+        file.put("VTKHDF/PointData/p", ramp<double>(24));
+        file.put("VTKHDF/Steps/Values", std::vector<double>{0, 1});
+        file.put("VTKHDF/Steps/NumberOfParts", Numbers{1, 1});
+        file.put("VTKHDF/Steps/PartOffsets", Numbers{0, 0});
+        file.put("VTKHDF/Steps/PointOffsets", pointsAt);
+        file.put("VTKHDF/Steps/CellOffsets", Numbers{0, 0});
+        file.put("VTKHDF/Steps/ConnectivityIdOffsets", Numbers{0, 0});
+        file.put("VTKHDF/Steps/PointDataOffsets/p", Numbers{0, 12});
+        return file.close();
+    };
+    expectKept({written({0, 0})}, 0);
+    const auto moving = open(written({0, 12}));
+    EXPECT_FALSE(moving->sources(0, 0).files.empty());
+    EXPECT_TRUE(moving->sources(0, 1).files.empty());
 }
 
 // Squares beside each other and a line, whose values stand in the order of the groups in each part.

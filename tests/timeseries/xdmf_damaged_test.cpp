@@ -30,6 +30,12 @@ TEST(DamagedXdmf, AnAttributeThatIsNotReadIsTold) {
     EXPECT_THAT(reader->damaged()[2].why, HasSubstr("ItemType Function, which is not read"));
 }
 
+TEST(DamagedXdmf, GridsThatHaveThemselvesAreRefused) {
+    EXPECT_THAT(refusalOf(written("<Grid GridType=\"Collection\" CollectionType=\"Spatial\">"
+                                  "<xi:include xpointer=\"xpointer(//Grid)\"/></Grid>")),
+                HasSubstr("expected at most 32 nested grids"));
+}
+
 TEST(DamagedXdmf, WhatIsWrongIsToldWithItsLine) {
     HdfFile data("data.h5");
     data.put("a", ramp<float>(10));

@@ -3,11 +3,12 @@
 // frames, turning, while another file loads, and while a million points come to rest.
 // ui_bench --beside PROGRAM: from the start to a picture, by turns with another build of it.
 #include <fmt/core.h>
-#include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -15,6 +16,8 @@
 
 #include "tests/bench/program_run.h"
 #include "tests/support/built_paths.h"
+#include "tests/ui/bench_figures.h"
+#include "tests/ui/bench_series.h"
 #include "tests/ui/places.h"
 #include "tests/ui/slow_file.h"
 #include "tests/ui/temporary_folder.h"
@@ -22,16 +25,12 @@
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-using Milliseconds = std::chrono::duration<double, std::milli>;
+using ui::Clock;
+using ui::Milliseconds;
+using ui::noise;
+using ui::tell;
 
 constexpr int kDrags = 40;
-
-void tell(const char* what, std::vector<double> milliseconds) {
-    std::ranges::sort(milliseconds);
-    fmt::print("{:<48} {:>4} times  median {:7.1f} ms  longest {:7.1f} ms\n", what,
-               milliseconds.size(), milliseconds[milliseconds.size() / 2], milliseconds.back());
-}
 
 // Through the middle: to read all of a window would take the processor from the program.
 app::panels::Rect stripOf(const ui::Places& at) {
@@ -71,14 +70,6 @@ std::vector<double> gaps(ui::Driver& desk, const ui::Places& at, const Condition
     }
     desk.up();
     return out;
-}
-
-// In [0, 1).
-std::vector<float> noise(std::size_t points) {
-    std::mt19937 random(7);
-    std::vector<float> values(points);
-    for (float& value : values) value = static_cast<float>(random() >> 8) / (1 << 24);
-    return values;
 }
 
 // Columns of a place, none farther from the next than tiles are wide.
@@ -138,6 +129,16 @@ void runTurning(const ui::Screen& screen, const std::filesystem::path& home, con
     tell(what, gaps(desk, at, [](int i) { return i < 200; }));
 }
 
+// While pictures that move keep all that they have at rest, whatever the pace.
+void runTurningAll(const ui::Screen& screen, const std::filesystem::path& home, const char* what,
+                   const std::vector<std::string>& arguments) {
+    const auto preferences = home / ".config/isochron/preferences.json";
+    std::filesystem::create_directories(preferences.parent_path());
+    std::ofstream(preferences) << nlohmann::json{{"moving", "all"}};
+    runTurning(screen, home, what, arguments);
+    std::filesystem::remove(preferences);
+}
+
 // Splats are of a colour, axes and their numbers are not.
 bool hasSplats(const ui::Shot& shot) {
     constexpr int kGrey = 40;
@@ -191,6 +192,8 @@ void runResting(const ui::Screen& screen, const std::filesystem::path& home) {
     bench::writeField(file, "float", 128, noise(std::size_t{128} * 128 * 128));
     runTurning(screen, home, "between frames, turning, a million points",
                {file.string(), "--range", "0.25:0.75", "--model", "points"});
+    runTurningAll(screen, home, "between frames, turning, all of a million points",
+                  {file.string(), "--range", "0.25:0.75", "--model", "points"});
     const auto restBy = [&](const char* model, const char* gaps, const char* times) {
         ui::Driver desk(screen, home, {file.string(), "--range", "0.25:0.75", "--model", model});
         desk.waitForTitle(" points");
@@ -203,71 +206,6 @@ void runResting(const ui::Screen& screen, const std::filesystem::path& home) {
            "from a drag's end to all of a million points");
     restBy("cells", "between frames, their cells come to rest",
            "from a drag's end to all of their cells");
-}
-
-// As long as `seconds` of playing, the times between steps that the window's title names.
-std::vector<double> steps(ui::Driver& desk, double seconds) {
-    std::vector<double> out;
-    desk.press("space");
-    const Clock::time_point begin = Clock::now();
-    std::string last = desk.title();
-    for (Clock::time_point since = begin;
-         Clock::now() - begin < std::chrono::duration<double>(seconds);
-         std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
-        const std::string now = desk.title();
-        if (now == last) continue;
-        out.push_back(Milliseconds(Clock::now() - since).count());
-        since = Clock::now();
-        last = now;
-    }
-    desk.press("space");
-    return out;
-}
-
-// A series that is to play faster than it can: while its steps are read and sorted, then again.
-void runPlaying(const ui::Screen& screen, const std::filesystem::path& home) {
-    constexpr std::size_t kEdge = 256;
-    constexpr int kSteps = 12;
-    std::vector<float> values = noise(kEdge * kEdge * kEdge);
-    std::vector<std::string> files;
-    for (int i = 0; i < kSteps; ++i) {
-        files.push_back((home / fmt::format("step_{:02}.nrrd", i)).string());
-        bench::writeField(files.back(), "float", kEdge, values);
-        std::ranges::rotate(values, values.begin() + 12345);
-    }
-    const auto session = home / "play.json";
-    std::ofstream(session) << nlohmann::json{
-        {"isochron", 1},
-        {"files", files},
-        {"steps", "0"},
-        {"model", "points"},
-        {"layers", {{{"range", "0.5:0.51"}}}},
-        {"play", {{"stepsPerSecond", 60}, {"ending", "loop"}}}};
-    ui::Driver desk(screen, home, {session.string(), "--cache", "off"});
-    desk.waitForTitle(" points");
-    std::vector<double> first = steps(desk, 0.5 * kSteps);
-    first.resize(std::min<std::size_t>(first.size(), kSteps - 1));  // those after are there again
-    tell("between steps, 256^3, read on the way", first);
-    steps(desk, 10);  // until all are in memory
-    tell("between steps, 256^3, from memory", steps(desk, 6));
-}
-
-// A thin window that sweeps through the fire's step whose values reach far: its shell by cells,
-// lit.
-void runSweeping(const ui::Screen& screen, const std::filesystem::path& home) {
-    const auto session = home / "sweep.json";
-    std::ofstream(session) << nlohmann::json{
-        {"isochron", 1},
-        {"files", {tests::demo().string()}},
-        {"steps", "15"},
-        {"model", "cells"},
-        {"light", "full"},
-        {"sweep", {{"animation", "400:1400"}, {"delta", 5}, {"timerSteps", 500}}},
-        {"play", {{"stepsPerSecond", 60}, {"timeMoves", false}}}};
-    ui::Driver desk(screen, home, {session.string()});
-    desk.waitForTitle(" points");
-    desk.settled();
-    tell("between windows, a shell swept through the fire", steps(desk, 8));
 }
 
 void run(const std::filesystem::path& file) {
@@ -294,10 +232,23 @@ void run(const std::filesystem::path& file) {
         runOpening(screen, home.path(), "from the start to 1 % of 512^3, from an index",
                    with(cache));
         std::filesystem::remove_all(cache);
+        ui::runPlayingCold(screen, home.path(), "between steps, 1 % of 512^3, from a cold disk",
+                           large, 10, "0.5:0.51");
         std::filesystem::remove(large);
     }
-    runPlaying(screen, home.path());
-    runSweeping(screen, home.path());
+    {
+        const auto huge = home.path() / "huge.nrrd";
+        std::vector<std::uint8_t> bytes(std::size_t{1} << 30);
+        std::mt19937 random(7);
+        for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random() % 100);
+        bench::writeField(huge, "uint8", 1024, bytes);
+        bytes = {};
+        ui::runPlayingCold(screen, home.path(),
+                           "between steps, 1 % of 1024^3 bytes, from a cold disk", huge, 4, "50");
+        std::filesystem::remove(huge);
+    }
+    ui::runPlaying(screen, home.path());
+    ui::runSweeping(screen, home.path());
     ui::Driver desk(screen, home.path(), {file.string()});
     desk.waitForTitle(" points");
     const ui::Places at = ui::placesOf(desk.size());

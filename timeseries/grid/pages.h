@@ -29,6 +29,13 @@ void givePages(void* at, std::size_t bytes, Filled filled = Filled::Mostly) noex
 // pages than for what it writes.
 void populate(void* at, std::size_t bytes);
 
+// Gives the memory of these bytes back to the system, by whole pages: they are anything then, until
+// they are written. Whoever has them frees them as before.
+void giveBack(void* at, std::size_t bytes) noexcept;
+
+// Whether so much is free without taking it from what the system keeps of files.
+bool muchIsFree(std::size_t bytes);
+
 // REQUIRES: it is empty.
 template <typename T>
 void resizePopulated(std::vector<T>& values, std::size_t count) {

@@ -39,40 +39,21 @@ std::string_view whyNoSolids(const MeshAbout& about) {
     return "the values are of surfaces, or of columns on them, not of solid cells";
 }
 
-// The least and the greatest of those that count.
-template <typename T, typename Counts>
-std::pair<Number, Number> extentOf(std::span<const T> values, const Counts& counts) {
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    bool any = false;
-    T lo{}, hi{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (!counts(i)) continue;
-        lo = any ? std::min(lo, values[i]) : values[i];
-        hi = any ? std::max(hi, values[i]) : values[i];
-        any = true;
-    }
-    return any ? std::pair{numberOf(lo), numberOf(hi)} : std::pair<Number, Number>{kNan, kNan};
-}
-
-// Of the whole field, of which the partition found what is valid.
+// Of so many values of a field, of which the partition found what is valid.
 template <typename T>
-StepStatistics statisticsOf(const Field& field, std::span<const T> values,
-                            const Partition<T>& points) {
+StepStatistics statisticsOf(std::size_t values, const Partition<T>& points) {
     StepStatistics s;
     s.points = points.valid;
-    s.missing = values.size() - s.points;
-    s.min = s.max = std::numeric_limits<double>::quiet_NaN();
-    const T lo = points.leastValid, hi = points.greatestValid;
+    s.missing = values - s.points;
+    s.min = s.max = s.finiteMin = s.finiteMax = std::numeric_limits<double>::quiet_NaN();
     if (s.points > 0) {
-        s.min = numberOf(lo);
-        s.max = numberOf(hi);
+        s.min = numberOf(points.leastValid);
+        s.max = numberOf(points.greatestValid);
     }
-    s.finiteMin = s.min;
-    s.finiteMax = s.max;
-    if (std::isinf(lo) || std::isinf(hi))  // rare: the others are spared the look
-        std::tie(s.finiteMin, s.finiteMax) = extentOf(values, [&](std::size_t i) {
-            return (field.missing.empty() || !field.missing[i]) && std::isfinite(values[i]);
-        });
+    if (points.finite) {
+        s.finiteMin = numberOf(points.finite->first);
+        s.finiteMax = numberOf(points.finite->second);
+    }
     return s;
 }
 
@@ -129,7 +110,9 @@ constexpr std::size_t kFewQuantiles = 64;
 
 }  // namespace
 
-SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned threads) {
+template <typename Passed>
+SortedStep SortedStep::buildOf(const Field& field, const RangeSet& kept, unsigned threads,
+                               const Passed& passed) {
     SortedStep step;
     step.grid_ = field.grid;
     step.kept_ = kept;
@@ -141,15 +124,30 @@ SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned 
             if (all.size() > (std::uint64_t{1} << 32))
                 throw std::length_error(fmt::format(
                     "a step of {} points is more than the 2^32 that one list holds", all.size()));
-            const std::span<const T> values(all);
             const auto intervals = kept.toIntervals<T>();
-            Partition<T> points = partition<T>(values, field.missing, intervals, {threads});
-            step.statistics_ = statisticsOf(field, values, points);
+            Partition<T> points =
+                partition<T>(all, field.missing, intervals,
+                             {.threads = threads, .passed = passed(std::span<const T>(all))});
+            step.statistics_ = statisticsOf(all.size(), points);
             step.size_ = points.points();
             step.columns_ = std::make_shared<const LazyColumn<T>>(std::move(points), threads);
         },
         field.values);
     return step;
+}
+
+SortedStep SortedStep::build(const Field& field, const RangeSet& kept, unsigned threads) {
+    using Passed = std::function<void(std::size_t, std::size_t)>;
+    return buildOf(field, kept, threads, [](const auto&) { return Passed(); });
+}
+
+SortedStep SortedStep::build(Field&& field, const RangeSet& kept, unsigned threads) {
+    Field consumed = std::move(field);
+    return buildOf(consumed, kept, threads, []<typename T>(std::span<const T> values) {
+        return [at = const_cast<T*>(values.data())](std::size_t first, std::size_t last) {
+            giveBack(at + first, (last - first) * sizeof(T));
+        };
+    });
 }
 
 SortedStep SortedStep::buildWithField(Field field, const RangeSet& kept, unsigned threads) {

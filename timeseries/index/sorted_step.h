@@ -76,6 +76,10 @@ class SortedStep {
     // threads build it, and put points in order later.
     static SortedStep build(const Field& field, const RangeSet& kept = RangeSet::everything(),
                             unsigned threads = sharingThreads());
+    // Gives the field's values back while it takes them: of a step that is large for the machine
+    // the two never are there whole at once.
+    static SortedStep build(Field&& field, const RangeSet& kept = RangeSet::everything(),
+                            unsigned threads = sharingThreads());
 
     // For those who will ask for cells, or for the field, of all values, and for points in `kept`
     // alone: the field is held until there are cells of it, where there can be.
@@ -177,6 +181,9 @@ class SortedStep {
 
  private:
     SortedStep() = default;
+    template <typename Passed>
+    static SortedStep buildOf(const Field& field, const RangeSet& kept, unsigned threads,
+                              const Passed& passed);
     std::string_view whyNothingBetween() const;  // points, whatever was kept
     std::shared_ptr<const Grid> grid_;
     // In the order of Values' alternatives.

@@ -5,6 +5,7 @@
 #endif
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -16,6 +17,8 @@ namespace timeseries {
 namespace {
 
 constexpr std::size_t kLine = 16;  // points that are written at once
+
+using Passed = std::function<void(std::size_t, std::size_t)>;
 
 // The points of a field that count.
 template <typename T>
@@ -111,7 +114,8 @@ std::vector<Counted<T>> countAll(const Points<T>& points, unsigned threads, std:
 }
 
 template <typename T>
-void takeStatistics(const std::vector<Counted<T>>& parts, Partition<T>& out) {
+void takeStatistics(const Points<T>& points, const std::vector<Counted<T>>& parts,
+                    Partition<T>& out) {
     for (const Counted<T>& part : parts) {
         if (part.valid == 0) continue;
         if (out.valid == 0) out.leastValid = part.least, out.greatestValid = part.greatest;
@@ -119,6 +123,20 @@ void takeStatistics(const std::vector<Counted<T>>& parts, Partition<T>& out) {
         out.greatestValid = std::max(out.greatestValid, part.greatest);
         out.valid += part.valid;
     }
+    const auto isFinite = [](T value) {
+        return !std::numeric_limits<T>::has_infinity ||
+               std::abs(static_cast<double>(value)) < std::numeric_limits<double>::infinity();
+    };
+    const auto add = [&](std::size_t, T value) {
+        if (!isFinite(value)) return;
+        const auto [least, greatest] = out.finite.value_or(std::pair(value, value));
+        out.finite = {std::min(least, value), std::max(greatest, value)};
+    };
+    if (out.valid == 0) return;
+    if (isFinite(out.leastValid) && isFinite(out.greatestValid))
+        out.finite = {out.leastValid, out.greatestValid};
+    else  // rare: the others are spared the look
+        points.forEachValid(0, points.field.size(), add);
 }
 
 // What a thread has of a bucket and not written yet: the points whose places are in one line of
@@ -216,29 +234,43 @@ std::vector<std::vector<std::uint64_t>> startsOf(std::vector<Counted<T>>& parts,
 
 template <typename T, bool kValues, typename Slot>
 void scatterAll(const Points<T>& points, std::vector<std::vector<std::uint64_t>> starts,
-                const Slot& slotOf, Partition<T>& out) {
+                const Slot& slotOf, const Passed& passed, Partition<T>& out) {
+    constexpr std::size_t kAtOnce = std::size_t{1} << 22;
     const auto threads = static_cast<unsigned>(starts.size());
     sharing(threads, [&](unsigned k) {
         Scatter<T, kValues> scatter(out, std::move(starts[k]));
         const bool all = points.all;
-        points.forEachValid(points.begin(k, threads), points.begin(k + 1, threads),
-                            [&](std::size_t i, T value) {
-                                if (!all && !points.keeps(value)) return;
-                                const auto key = orderedKey(value);
-                                scatter.put(slotOf(key), i, valueOfKey<T>(key));
-                            });
+        const std::size_t end = points.begin(k + 1, threads);
+        for (std::size_t from = points.begin(k, threads), to = 0; from < end; from = to) {
+            to = std::min(from + kAtOnce, end);
+            points.forEachValid(from, to, [&](std::size_t i, T value) {
+                if (!all && !points.keeps(value)) return;
+                const auto key = orderedKey(value);
+                scatter.put(slotOf(key), i, valueOfKey<T>(key));
+            });
+            if (passed) passed(from, to);
+        }
         scatter.finish();
     });
 }
 
+// What will be filled at once where memory is plenty; else, as it is filled, a page after the
+// other, while the field's are given back.
+template <typename V>
+Pages<V> roomFor(std::uint64_t points) {
+    constexpr std::size_t kPlenty = 4;
+    const auto bytes = static_cast<std::size_t>(points) * (sizeof(std::uint32_t) + sizeof(V));
+    return Pages<V>(points, muchIsFree(kPlenty * bytes) ? Filled::Mostly : Filled::Sparsely);
+}
+
 // Each value a bucket: a counting sort (8 and 16 bits).
 template <typename T>
-Partition<T> byEachValue(const Points<T>& points, unsigned threads) {
+Partition<T> byEachValue(const Points<T>& points, unsigned threads, const Passed& passed) {
     constexpr std::size_t kKeys = std::size_t{1} << (8 * sizeof(T));
     const auto itself = [](OrderedKey<T> key) { return std::size_t{key}; };
     auto parts = countAll(points, threads, kKeys, itself);
     Partition<T> out;
-    takeStatistics(parts, out);
+    takeStatistics(points, parts, out);
     for (std::size_t key = 0; key < kKeys; ++key) {
         std::uint64_t count = 0;
         for (const Counted<T>& part : parts) count += part.inBin[key];
@@ -249,9 +281,9 @@ Partition<T> byEachValue(const Points<T>& points, unsigned threads) {
     out.least.shrink_to_fit();
     out.begin.shrink_to_fit();
     out.oneValueEach = true;
-    out.gridIndex = Pages<std::uint32_t>(out.points());
+    out.gridIndex = roomFor<std::uint32_t>(out.points());
     out.values = Pages<T>(out.points());
-    scatterAll<T, false>(points, startsOf(parts, kKeys), itself, out);
+    scatterAll<T, false>(points, startsOf(parts, kKeys), itself, passed, out);
     return out;
 }
 
@@ -260,7 +292,7 @@ template <typename T>
 Partition<T> asOneBucket(const Points<T>& points) {
     auto parts = countAll(points, 1, 1, [](OrderedKey<T>) { return std::size_t{0}; });
     Partition<T> out;
-    takeStatistics(parts, out);
+    takeStatistics(points, parts, out);
     const std::uint64_t kept = parts[0].inBin[0];
     if (kept == 0) return out;
     out.least = {0};
@@ -312,13 +344,14 @@ std::vector<std::uint32_t> joinBins(const std::vector<Counted<T>>& parts,
 }
 
 template <typename T>
-Partition<T> byBuckets(const Points<T>& points, unsigned threads, std::uint64_t most) {
+Partition<T> byBuckets(const Points<T>& points, unsigned threads, std::uint64_t most,
+                       const Passed& passed) {
     std::vector<OrderedKey<T>> sample = sampleOf(points);
     const std::uint64_t inSample = most * sample.size() / points.field.size();
     const ValueBins<T> bins(std::move(sample), std::max<std::uint64_t>(inSample, 1));
     auto parts = countAll(points, threads, bins.count(), bins);
     Partition<T> out;
-    takeStatistics(parts, out);
+    takeStatistics(points, parts, out);
     const auto bucketOf = joinBins(parts, bins.leastKeys(), most, out);
     const std::vector<std::uint32_t> bucketOfPrefix = bins.ofWholePrefixes(bucketOf);
     for (Counted<T>& part : parts) {
@@ -327,15 +360,15 @@ Partition<T> byBuckets(const Points<T>& points, unsigned threads, std::uint64_t 
             inBucket[bucketOf[bin]] += part.inBin[bin];
         part.inBin = std::move(inBucket);
     }
-    out.gridIndex = Pages<std::uint32_t>(out.points());
-    out.values = Pages<T>(out.points());
+    out.gridIndex = roomFor<std::uint32_t>(out.points());
+    out.values = roomFor<T>(out.points());
     scatterAll<T, true>(
         points, startsOf(parts, out.least.size()),
         [&, ofPrefix = bucketOfPrefix.data()](OrderedKey<T> key) {
             const std::uint32_t whole = ofPrefix[bins.prefixOf(key)];
             return std::size_t{whole != bins.kDivided ? whole : bucketOf[bins(key)]};
         },
-        out);
+        passed, out);
     return out;
 }
 
@@ -352,9 +385,10 @@ Partition<T> partition(std::span<const T> field, const std::vector<bool>& missin
     if (field.size() < size.least && (sizeof(T) > 1 || field.size() < 1024))
         return asOneBucket(points);
     if constexpr (sizeof(T) <= 2) {
-        return byEachValue(points, threads);
+        return byEachValue(points, threads, size.passed);
     } else {
-        return byBuckets(points, threads, std::max(size.bucket, field.size() / size.mostBuckets));
+        return byBuckets(points, threads, std::max(size.bucket, field.size() / size.mostBuckets),
+                         size.passed);
     }
 }
 

@@ -4,7 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "timeseries/grid/pages.h"
@@ -32,6 +35,7 @@ struct Partition {
     // `greatest` are the first such ones, if there is one.
     std::uint64_t valid = 0;
     T leastValid{}, greatestValid{};
+    std::optional<std::pair<T, T>> finite = {};  // of those that are no infinities
 
     std::uint64_t points() const { return begin.back(); }
 };
@@ -47,6 +51,9 @@ struct PartitionSize {
     std::size_t worthAThread = 1 << 17;
     // Fields of fewer points are one bucket: tables would outweigh them.
     std::uint64_t least = std::uint64_t{1} << (16 + 1);
+    // Told of parts of the field, [first, last), that are not looked at any more, by each thread of
+    // its own; may be empty.
+    std::function<void(std::size_t first, std::size_t last)> passed = {};
 };
 
 // The points of `field` that are not missing and whose values lie in `kept`, which is as

@@ -111,8 +111,7 @@ ListPart<T> listOf(const Ranks& ranks, Field values, const GridBox& box,
     std::vector<PackedPoint<T>> mine;
     ranks.agreed([&] {
         if (box.count() == 0) return;
-        const SortedStep step = SortedStep::build(values);
-        values = Field{};
+        const SortedStep step = SortedStep::build(std::move(values));
         part.missing = step.statistics().missing;
         mine = sortedOf<T>(step, box, size);
     });

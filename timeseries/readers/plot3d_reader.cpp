@@ -103,11 +103,13 @@ class Plot3dReader final : public Reader {
                              size[0], size[1], size[2]));
         place(places);
         addVariables(places);
+        both_ = {path, places};
     }
 
     std::string format() const override { return "PLOT3D"; }
     std::span<const fs::path> files() const override { return paths_; }
     std::span<const Variable> variables() const override { return variables_; }
+    StepSources sources(std::size_t, std::size_t step) override { return {both_, step}; }
     Field read(std::size_t variable, std::size_t) override;
 
  private:
@@ -121,7 +123,7 @@ class Plot3dReader final : public Reader {
         return numbersOf<float>(path, layout, from, count);
     }
 
-    std::vector<fs::path> paths_;
+    std::vector<fs::path> paths_, both_;  // of values; and the places
     Plot3dLayout layout_;
     std::shared_ptr<const Grid> grid_;
     std::vector<bool> missing_;
@@ -216,6 +218,11 @@ Field Plot3dReader::read(std::size_t variable, std::size_t) {
 
 bool isPlot3d(std::string_view start, std::uint64_t bytes) {
     return plot3dLayoutOf(start, bytes).has_value();
+}
+
+bool isPlot3dPlaces(const fs::path& path) {
+    const auto layout = layoutOf(path);
+    return layout && layout->kind == Plot3dLayout::Kind::Places;
 }
 
 std::unique_ptr<Reader> openPlot3d(std::span<const std::filesystem::path> paths) {

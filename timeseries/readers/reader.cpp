@@ -123,6 +123,7 @@ const std::array kFormats = {
 };
 // Begins with nothing of its own: told by its size, when it is none of the others.
 const Format kPlot3d{nullptr, openPlot3d};
+constexpr const char* kPlot3dPlaces = "a PLOT3D file of places (XYZ), beside a flow's";
 // Folders.
 const Format kZarr{nullptr, openZarr, true};
 const Format kFoam{nullptr, openFoam}, kAmrex{nullptr, openAmrex, true};
@@ -216,8 +217,7 @@ std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths)
 
 bool isReadable(const std::filesystem::path& path) {
     try {
-        recognise(path);
-        return true;
+        return &recognise(path) != &kPlot3d || !isPlot3dPlaces(path);
     } catch (const FileError&) {
         return false;
     }
@@ -225,6 +225,7 @@ bool isReadable(const std::filesystem::path& path) {
 
 std::string formatNotRead(const std::filesystem::path& path) {
     try {
+        if (formatOf(path) == &kPlot3d) return isPlot3dPlaces(path) ? kPlot3dPlaces : "";
         return isReadable(path) ? "" : otherFormat(beginning(path));
     } catch (const FileError&) {
         return "";

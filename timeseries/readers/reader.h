@@ -129,7 +129,8 @@ class Reader {
 // Opens by content. Several paths are one series. Throws FileError.
 std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths);
 
-// Whether the file begins as one of the formats does that are read.
+// Whether the file begins as one of the formats does that are read; not what has no values of its
+// own (PLOT3D's places).
 bool isReadable(const std::filesystem::path& path);
 // "a NIfTI file": what a file is that begins otherwise; "" where that is not known.
 std::string formatNotRead(const std::filesystem::path& path);

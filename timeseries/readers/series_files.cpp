@@ -284,6 +284,9 @@ ExpandedSeries folder(const Path& folder) {
         if (candidates.size() > 1) refuseCandidates(folder, candidates);
         files = candidates.front();
     }
+    constexpr std::size_t kFew = 64;
+    if (files.size() > 1 && files.size() <= kFew && std::ranges::any_of(files, isReadable))
+        std::erase_if(files, [](const Path& each) { return !formatNotRead(each).empty(); });
     ExpandedSeries result = together(std::move(files), kByName);
     if (result.files.size() == 1)
         result.recognised =

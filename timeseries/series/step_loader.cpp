@@ -37,7 +37,7 @@ StepLoader::StepLoader(std::unique_ptr<Reader> reader, std::size_t variable, Ran
 
 StepLoader::~StepLoader() = default;  // jthread asks to stop, which ends its waits, and joins
 
-void StepLoader::want(std::vector<std::size_t> mostUrgentFirst, Haste haste) {
+void StepLoader::want(std::vector<std::size_t> mostUrgentFirst, Haste haste, RangeSet looked) {
     for (const std::size_t step : mostUrgentFirst)
         if (step >= stepCount_)
             throw std::out_of_range(
@@ -48,6 +48,7 @@ void StepLoader::want(std::vector<std::size_t> mostUrgentFirst, Haste haste) {
         if (reading_) underWay[*reading_] = true;
         for (const LoadResult& result : results_) underWay[stepOf(result)] = true;
         haste_ = haste;
+        looked_ = std::move(looked);
         wishes_.clear();
         for (const std::size_t step : mostUrgentFirst) {
             if (underWay[step]) continue;
@@ -100,8 +101,9 @@ void StepLoader::run(const std::stop_token& stop) {
         const std::size_t step = wishes_.front();
         wishes_.pop_front();
         reading_ = step;
+        const RangeSet looked = looked_;
         lock.unlock();
-        LoadResult result = load(step);
+        LoadResult result = load(step, looked);
         lock.lock();
         reading_.reset();
         results_.push_back(std::move(result));
@@ -123,10 +125,13 @@ void StepLoader::write(const std::stop_token& stop) {
     });
 }
 
-LoadResult StepLoader::load(std::size_t step) {
+LoadResult StepLoader::load(std::size_t step, const RangeSet& looked) {
     try {
         auto sorted = maker_.make(step);
-        if (ready_ == Ready::Whole && !sorted->file()) sorted->columns();
+        if (sorted->file())
+            sorted->columns(sorted->select(sorted->keptPart(looked)));
+        else if (ready_ == Ready::Whole)
+            sorted->columns();
         return Loaded{step, std::move(sorted)};
     } catch (const std::bad_alloc&) {
         return Failed{step, fmt::format("there is not enough memory for step {}", step)};

@@ -63,9 +63,11 @@ class StepLoader {
     // Replaces the wishes: what is not wished any more and not begun is not read. What is being
     // read, or read but not polled yet, is not read again. A step already polled is: wish for what
     // is missing. Throws std::out_of_range, and wishes nothing, for a step that the series does not
-    // have. Steps that nobody waits for are written as they come.
+    // have. Steps that nobody waits for are written as they come. What is `looked` at of a step on
+    // disk is read before it can be polled, so that who draws it need not.
     enum class Haste { Waited, Nobody };
-    void want(std::vector<std::size_t> mostUrgentFirst, Haste haste = Haste::Waited);
+    void want(std::vector<std::size_t> mostUrgentFirst, Haste haste = Haste::Waited,
+              RangeSet looked = {});
 
     // A result, in the order in which they were finished; none when there is none yet.
     // The loader keeps few results ahead: it goes on when one is polled.
@@ -77,7 +79,7 @@ class StepLoader {
 
  private:
     void run(const std::stop_token& stop);
-    LoadResult load(std::size_t step);
+    LoadResult load(std::size_t step, const RangeSet& looked);
     bool mayBegin() const;  // REQUIRES: mutex_ is held
     void write(const std::stop_token& stop);
     bool idle() const;                      // REQUIRES: mutex_ is held
@@ -91,9 +93,10 @@ class StepLoader {
     std::mutex mutex_;
     std::condition_variable_any work_;  // the loader waits: wishes, or room for results
     std::condition_variable done_;      // waitAndPoll waits: a result
-    // The four below are guarded by mutex_.
+    // Those below are guarded by mutex_.
     std::deque<std::size_t> wishes_;  // most urgent first, each once
     Haste haste_ = Haste::Waited;
+    RangeSet looked_;
     std::optional<std::size_t> reading_;
     std::deque<LoadResult> results_;
 

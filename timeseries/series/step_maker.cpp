@@ -77,9 +77,9 @@ StepMaker::StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, Range
       stores_(std::move(stores)) {}
 
 SortedStep StepMaker::sorted(Field field) const {
-    if (kept_ != RangeSet::everything()) return SortedStep::build(field, kept_);
+    if (kept_ != RangeSet::everything()) return SortedStep::build(std::move(field), kept_);
     if (holds_ == Holds::Field) return SortedStep::buildWithField(std::move(field), asked_);
-    return SortedStep::build(field, asked_);
+    return SortedStep::build(std::move(field), asked_);
 }
 
 Field StepMaker::read(std::size_t step) {
@@ -121,7 +121,7 @@ std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std:
         const auto planes = [source] { return Reopened::planes(source); };
         const auto again = [source](const std::string& why) {
             source->store->discard(source->store->pathOf(source->origin), why);
-            if (const auto read = source->read()) return SortedStep::build(*read);
+            if (auto read = source->read()) return SortedStep::build(std::move(*read));
             throw FileError(
                 fmt::format("{}: {}", source->origin.files.front().string(), kHasChanged));
         };

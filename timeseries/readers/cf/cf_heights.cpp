@@ -77,6 +77,17 @@ std::map<std::string, std::string> termsIn(std::string text) {
     return terms;
 }
 
+// As CCM's files have them, which are older than that attribute (NCL's names for it). By what
+// their levels are, 1000 (A + B), the pressure that A is of is 1000 hPa.
+constexpr const char* kOfCcm = "atmosphere_hybrid_sigma_pressure_coordinate";
+std::map<std::string, std::string> termsOfCcm(const NcVariable& level) {
+    std::map<std::string, std::string> terms;
+    for (const auto& [term, attribute] :
+         {std::pair{"a", "A_var"}, {"b", "B_var"}, {"p0", "P0_var"}, {"ps", "PS_var"}})
+        if (std::string name = level.text(attribute); !name.empty()) terms[term] = std::move(name);
+    return terms.size() == 4 ? terms : std::map<std::string, std::string>();
+}
+
 bool has(const NcVariable& variable, std::size_t dimension) {
     return std::ranges::find(variable.dimensions, dimension) != variable.dimensions.end();
 }
@@ -155,7 +166,14 @@ std::optional<HeightFormula> formulaOf(const NcHeader& header, const NcVariable&
                                        const Roles& roles, const NcVariable& level) {
     HeightFormula formula;
     formula.terms = termsIn(level.text("formula_terms"));
-    const std::string kind = level.text("standard_name");
+    std::string kind = level.text("standard_name");
+    if (formula.terms.empty() && !(formula.terms = termsOfCcm(level)).empty()) {
+        kind = kOfCcm;
+        if (!header.find(formula.terms["p0"], level.group)) {
+            formula.terms.erase("p0");
+            formula.guessedPascals = 1e5;
+        }
+    }
     const auto known = std::ranges::find(kKnown, kind, &Known::standardName);
     if (known == kKnown.end()) return std::nullopt;
     for (const std::string_view term : known->terms)
@@ -227,9 +245,9 @@ std::vector<double> wrfHeights(const CfFile& file, const HeightFormula& formula,
 // One term in the units of the heights; 0 where the formula has none of it.
 struct Term {
     TermValues values;
-    double factor = 0;
+    double factor = 0, otherwise = 0;
     double at(std::size_t i, std::size_t j, std::size_t k) const {
-        return factor == 0 ? 0 : factor * values.at(i, j, k);
+        return factor == 0 ? otherwise : factor * values.at(i, j, k);
     }
 };
 
@@ -245,6 +263,10 @@ std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVar
 }
 
 std::string approximationIn(const HeightFormula& formula) {
+    if (formula.guessedPascals)
+        return fmt::format(
+            "its heights are by a reference pressure of {:g} hPa, which the file names but has not",
+            *formula.guessedPascals / 100);
     std::string terms;
     for (const std::string& name : formula.beside) terms += (terms.empty() ? "" : " and ") + name;
     if (terms.empty()) return "";
@@ -293,8 +315,10 @@ std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, co
             break;
         }
         case Formula::HybridPressure: {
-            const Term ap = term("ap"), a = term("a"), b = term("b"), p0 = term("p0"),
-                       ps = term("ps");
+            const Term ap = term("ap"), a = term("a"), b = term("b"), ps = term("ps");
+            Term p0 = term("p0");
+            p0.otherwise =
+                formula.guessedPascals.value_or(0) * unitRatio("Pa", formula.units).value_or(1);
             fill([&](const auto& of) { return of(ap) + of(a) * of(p0) + of(b) * of(ps); });
             break;
         }

@@ -30,6 +30,8 @@ struct HeightFormula {
     bool down = false, inTime = false;
     // Of the terms those that lie on other columns, and are taken from there.
     std::vector<std::string> beside = {};
+    // The reference pressure, where the file names one that it does not have.
+    std::optional<double> guessedPascals = {};
     friend bool operator==(const HeightFormula&, const HeightFormula&) = default;
 };
 

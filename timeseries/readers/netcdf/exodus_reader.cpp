@@ -43,11 +43,15 @@ class ExodusReader final : public Reader {
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
     StepGrids stepGrids(std::size_t) override {
-        const bool moves = !displacements_.empty() && steps_ > 1;
-        return {.are = moves ? StepGrids::Are::Moved : StepGrids::Are::One};
+        return {.are = moves() ? StepGrids::Are::Moved : StepGrids::Are::One};
+    }
+    StepSources sources(std::size_t, std::size_t step) override {
+        if (moves()) return {};
+        return {file_.sources(), step};
     }
 
  private:
+    bool moves() const { return !displacements_.empty() && steps_ > 1; }
     void addTime();
     void addDisplacements();
     void addVariables();

@@ -44,6 +44,11 @@ class VtkHdfReader final : public Reader {
     std::span<const Variable> variables() const override { return variables_; }
     Field read(std::size_t variable, std::size_t step) override;
     StepGrids stepGrids(std::size_t variable) override;
+    StepSources sources(std::size_t, std::size_t step) override {
+        const bool isThere = layout_.steps()[step] == layout_.steps()[0];
+        if (!isThere || vtkHdfGhosts(file_.header(), false)) return {};
+        return {file_.sources(), step};
+    }
 
  private:
     void addTime();
