@@ -143,6 +143,7 @@ MiddleError chosenError(const RenderOptions& options, const Explorer& e, const F
         return errorOfMiddle(e, frames, source, rungs, *options.within);
     };
     MiddleError points = by(false);
+    if (!points.whyNone.empty()) points.rung = all;
     const bool isEnough = points.depth && *points.depth <= *options.within;
     if (isEnough || all.model == Model::Points || !points.whyNone.empty()) return points;
     return by(true);
@@ -290,8 +291,8 @@ int renderHeadless(const RenderOptions& options) {
         say("  note: drawn by points, for --splatter exact draws no cells\n");
     tellStyle(e, dataset.variable);
     if (!error.text.empty() || !error.whyNone.empty()) tellError(error, frames, e.stereo.mode);
-    if (options.within && error.whyNone.empty())
-        say("  drawn: {}{}\n", rungText(error.rung),
+    if (options.within)
+        say("  drawn: {}{}\n", error.whyNone.empty() ? rungText(error.rung) : "all",
             error.depth && *error.depth > *options.within ? ", the truest there is" : "");
     if (const auto* const sweep = sweepOf(e); sweep && !e.oneTick && sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",

@@ -165,7 +165,7 @@ void Exploration::takeOpened() {
     if (!open_ || wish.files != explorer().files || pending_->rest == Pending::Rest::Again)
         for (const std::string& note : dataset.series.notes) tell(note);
     pending_->opened = std::make_unique<Open>(std::move(dataset), wish, settings_, wake_);
-    pending_->opened->steps.want({first}, rangesLookedAt(wish));
+    pending_->opened->steps.want({first});
 }
 
 // The wish comes true with any step that can be read: where the one asked for fails, LiveSteps goes

@@ -26,7 +26,7 @@ struct PointCounts {
 PointCounts pointCounts(const Explorer& explorer, const timeseries::SortedStep& step);
 
 // The values whose points pictures and counts of this look at: those of every layer, of a sweep
-// where it stands.
+// where it stands. REQUIRES: a resolved explorer.
 timeseries::RangeSet rangesLookedAt(const Explorer& explorer);
 
 }  // namespace app

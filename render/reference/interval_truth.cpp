@@ -10,6 +10,7 @@
 #include "render/reference/light_on_ray.h"
 #include "render/reference/tets_light.h"
 #include "render/reference/tets_on_pixels.h"
+#include "render/reference/truth_per.h"
 #include "render/splat/cell_slopes.h"
 #include "render/splat/cell_view.h"
 
@@ -96,13 +97,13 @@ IntervalTruth::IntervalTruth(const Scene& scene, const timeseries::FieldSlab& sl
     walk_.emplace(scene.placed, slab.firstCell, slab.endCell);
     for (const Layer& layer : scene.layers)
         layers_.emplace_back(slab, scene.clip, layer.cells.ranges, threads_, look,
-                             opacityPerOf(scene, layer));
+                             truthPer(scene, layer));
 }
 
 double IntervalTruth::weight(const Ray& ray, std::size_t layer, WeightWork& work) const {
     std::vector<LinePart>& parts = work.parts;
     const IntervalCells& cells = layers_[layer];
-    if (opacityPerOf(scene_, scene_.layers[layer]) == OpacityPer::Crossing) {
+    if (truthPer(scene_, scene_.layers[layer]) == OpacityPer::Crossing) {
         double passed = 0;
         (*walk_)(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
             if (cells.kind(cell, work.lately) == Kind::Nothing) return;

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "render/reference/truth_per.h"
+
 namespace render {
 namespace {
 
@@ -84,7 +86,7 @@ std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& fiel
     const CellsView seen(scene.placed, view);
     const PixelBins bins(pixels, view.size);
     std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
-    const OpacityPer per = opacityPerOf(scene, scene.layers[layer]);
+    const OpacityPer per = truthPer(scene, scene.layers[layer]);
     const auto& ranges = scene.layers[layer].cells.ranges;
     forEachTetBefore(
         scene, field, seen, bins, threads,

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/picture/picture.h"
 #include "app/picture/resolved.h"
 #include "tests/support/exploration_desk.h"
@@ -55,6 +57,26 @@ TEST(Exploration, NothingWaitsForAReader) {
     desk.exploration.undo();
     EXPECT_EQ(desk.shownStep(), 5u);
     desk.script->letAllGo();
+}
+
+// What a step on disk is asked for before it comes is not what it is to be asked for once its ends
+// are known.
+TEST(Exploration, ASweepThatIsAsWideAsTheDataOpens) {
+    const std::filesystem::path file = tests::fileOf(tests::bytesOfAStep());
+    for (const char* range : {"min:max", "60:max", "60:70"}) {
+        Explorer wish;
+        wish.files = {file};
+        setSweep(wish, timeseries::SweepSettings{.animation = timeseries::RangeSet::parse(range),
+                                                 .delta = 1});
+        wish.play.tick = 255;
+        Exploration exploration({});
+        exploration.open(wish);
+        while (exploration.opening()) exploration.advance(16ms);
+        ASSERT_TRUE(exploration.shown()) << range;
+        for (int frame = 0; frame < 3; ++frame) exploration.advance(16ms);
+        EXPECT_TRUE(std::isfinite(
+            timeseries::toDouble(sweepOf(exploration.explorer())->animation.ranges()[0].hi.value)));
+    }
 }
 
 // Not before they are more than the budget, and not those that are looked at.

@@ -293,7 +293,11 @@ TEST_F(StepFaults, AWriterThatIsKilledAtAnyCallLeavesTheOldFileOrTheNew) {
         const pid_t child = ::fork();
         if (child == 0) {
             calls.killedAt = at;
-            write();
+            try {
+                write();
+            } catch (...) {
+                ::_exit(1);
+            }
             ::_exit(0);
         }
         int status = 0;
@@ -304,6 +308,7 @@ TEST_F(StepFaults, AWriterThatIsKilledAtAnyCallLeavesTheOldFileOrTheNew) {
         removeUnfinished(folder, [](const fs::path&) { return true; });
         ASSERT_EQ(std::distance(fs::directory_iterator(folder), {}), 1) << at;
         if (WIFEXITED(status)) {
+            EXPECT_EQ(WEXITSTATUS(status), 0);
             EXPECT_EQ(found, after);
             break;
         }

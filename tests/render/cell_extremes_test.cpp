@@ -56,9 +56,7 @@ TEST(CellsOfTurbulence, AreTrueHoweverThinTheRange) {
         const auto count = static_cast<double>(values.size());
         const double mean = sum / count, deviation = std::sqrt(squares / count - mean * mean);
         const double between = std::sqrt(steps / count);
-        // Of the larger one, whose rays pass twice as many cells, the widest and the thinnest.
-        for (const double share :
-             side == 96 ? std::vector{1.0, 0.3, 0.1, 0.03, 0.01} : std::vector{1.0, 0.03}) {
+        for (const double share : {1.0, 0.3, 0.1, 0.03, 0.01}) {
             const double width = share * deviation;
             const CellWorld world(SortedStep::build(Field(field)),
                                   {std::to_string(mean) + "~" + std::to_string(width / 2)});

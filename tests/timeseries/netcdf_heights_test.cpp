@@ -353,6 +353,22 @@ TEST(NetcdfHeights, AReferencePressureThatIsNamedAndNotThereIsThousandHectopasca
                 testing::ElementsAre(testing::HasSubstr("a reference pressure of 1000 hPa")));
 }
 
+// Nor is it guessed of what is in no unit of pressure.
+TEST(NetcdfHeights, AReferencePressureIsNotGuessedBesideNumbersWithoutUnits) {
+    for (const char* units : {"", "m"}) {
+        const Levels levels{
+            "",
+            "",
+            {{"hyam", "z", "", ofLevel(0.5)},
+             {"hybm", "z", "", ofLevel(0.75)},
+             {"PS", "tyx", units, ofColumn(1000)}},
+            false,
+            {{"A_var", "hyam"}, {"B_var", "hybm"}, {"P0_var", "P0"}, {"PS_var", "PS"}}};
+        const auto reader = open(written(levels));
+        EXPECT_EQ(reader->variables()[tests::indexOf(*reader, "T")].grid->mesh(), nullptr);
+    }
+}
+
 // Terms that are not there, of other dimensions, or that give one height for all.
 TEST(NetcdfHeights, WithoutAFormulaThatHoldsLevelsAreUsedAsTheyAre) {
     const auto notesOf = [](const Levels& levels) {

@@ -3,11 +3,13 @@
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
+#include <sys/sysinfo.h>
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -260,7 +262,12 @@ template <typename V>
 Pages<V> roomFor(std::uint64_t points) {
     constexpr std::size_t kPlenty = 4;
     const auto bytes = static_cast<std::size_t>(points) * (sizeof(std::uint32_t) + sizeof(V));
-    return Pages<V>(points, muchIsFree(kPlenty * bytes) ? Filled::Mostly : Filled::Sparsely);
+    if (muchIsFree(kPlenty * bytes)) return Pages<V>(points);
+    // Of pages that come one by one the system promises more than there is.
+    struct sysinfo all {};
+    if (sysinfo(&all) == 0 && points * sizeof(V) > (all.totalram + all.totalswap) * all.mem_unit)
+        throw std::bad_alloc();
+    return Pages<V>(points, Filled::Sparsely);
 }
 
 // Each value a bucket: a counting sort (8 and 16 bits).

@@ -12,6 +12,7 @@
 #include "timeseries/readers/foam/foam_case.h"
 #include "timeseries/readers/netcdf/snapshot_files.h"
 #include "timeseries/readers/other_formats.h"
+#include "timeseries/readers/plot3d_reader.h"
 #include "timeseries/readers/reader.h"
 #include "timeseries/readers/series_text.h"
 #include "timeseries/readers/text/decimal_names.h"
@@ -284,9 +285,9 @@ ExpandedSeries folder(const Path& folder) {
         if (candidates.size() > 1) refuseCandidates(folder, candidates);
         files = candidates.front();
     }
-    constexpr std::size_t kFew = 64;
-    if (files.size() > 1 && files.size() <= kFew && std::ranges::any_of(files, isReadable))
-        std::erase_if(files, [](const Path& each) { return !formatNotRead(each).empty(); });
+    constexpr std::size_t kFew = 64;  // each is looked into
+    if (files.size() > 1 && files.size() <= kFew && !std::ranges::all_of(files, isPlot3dPlaces))
+        std::erase_if(files, isPlot3dPlaces);
     ExpandedSeries result = together(std::move(files), kByName);
     if (result.files.size() == 1)
         result.recognised =

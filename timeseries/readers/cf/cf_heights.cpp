@@ -189,6 +189,7 @@ std::optional<HeightFormula> formulaOf(const NcHeader& header, const NcVariable&
         formula.inTime = formula.inTime || hasTime(*found, variable, roles);
         if (term == known->measure) formula.units = found->text("units");
     }
+    if (formula.guessedPascals && !sameDimension(formula.units, "Pa")) return std::nullopt;
     formula.kind = known->kind;
     formula.name = known->name;
     formula.down = known->down;
@@ -263,17 +264,18 @@ std::optional<HeightFormula> heightFormulaOf(const NcHeader& header, const NcVar
 }
 
 std::string approximationIn(const HeightFormula& formula) {
+    std::string told, terms;
     if (formula.guessedPascals)
-        return fmt::format(
+        told = fmt::format(
             "its heights are by a reference pressure of {:g} hPa, which the file names but has not",
             *formula.guessedPascals / 100);
-    std::string terms;
     for (const std::string& name : formula.beside) terms += (terms.empty() ? "" : " and ") + name;
-    if (terms.empty()) return "";
-    return fmt::format(
-        "its heights are near what their formula says: of {}, which other columns have, it takes "
-        "the mean of those beside each point",
-        terms);
+    if (terms.empty()) return told;
+    return told + (told.empty() ? "" : "; ") +
+           fmt::format(
+               "its heights are near what their formula says: of {}, which other columns have, it "
+               "takes the mean of those beside each point",
+               terms);
 }
 
 std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, const Roles& roles,
@@ -318,7 +320,7 @@ std::vector<double> heightsOf(const CfFile& file, const NcVariable& variable, co
             const Term ap = term("ap"), a = term("a"), b = term("b"), ps = term("ps");
             Term p0 = term("p0");
             p0.otherwise =
-                formula.guessedPascals.value_or(0) * unitRatio("Pa", formula.units).value_or(1);
+                formula.guessedPascals.value_or(0) * unitRatio("Pa", formula.units).value();
             fill([&](const auto& of) { return of(ap) + of(a) * of(p0) + of(b) * of(ps); });
             break;
         }
