@@ -534,7 +534,7 @@ def window_page(part):
     for what, _, middle, _ in rows:
         if what.strip() in asked:
             target(f"window: {what.strip().replace('^3', '³')}", float(middle) * 1e-3, asked[what.strip()] * 1e-3, shown=time)
-    memory = {what: float(most) for what, most in re.findall(r"^(between steps, .*?), most memory (\d+) MB", part.figures, re.M)}
+    memory = {what: float(most) for what, most in re.findall(r"^(between steps, .*? shown), most memory (\d+) MB", part.figures, re.M)}
     for what, most in memory.items():
         if "1024" in what:
             target(f"window: {what.replace('^3', '³')}: MB of memory", most, 2000)

@@ -11,8 +11,8 @@ namespace ui {
 // A series that is to play faster than it can: while its steps are read and sorted, then again.
 void runPlaying(const Screen& screen, const std::filesystem::path& home);
 
-// A series of `count` steps with an index each, one range of which plays from a disk that nothing
-// is remembered of: each step is waited for once. `file` is each step's; the indices are not.
+// A series of `count` steps with an index each, one range of which plays once, ten steps a second,
+// from a disk that nothing is remembered of. `file` is each step's; the indices are not.
 void runPlayingCold(const Screen& screen, const std::filesystem::path& home, const char* what,
                     const std::filesystem::path& file, int count, const std::string& range);
 
