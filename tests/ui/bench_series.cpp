@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -64,7 +65,7 @@ void runPlaying(const Screen& screen, const std::filesystem::path& home) {
     for (int i = 0; i < kSteps; ++i) {
         files.push_back((home / fmt::format("step_{:02}.nrrd", i)).string());
         bench::writeField(files.back(), "float", kEdge, values);
-        std::ranges::rotate(values, values.begin() + 12345);
+        std::rotate(values.begin(), values.begin() + 12345, values.end());
     }
     const auto session = home / "play.json";
     std::ofstream(session) << nlohmann::json{
