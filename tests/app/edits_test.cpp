@@ -13,6 +13,7 @@
 #include "app/choices/sweep_edits.h"
 #include "tests/support/scenes.h"
 #include "tests/support/selection_oracle.h"
+#include "tests/support/sorted.h"
 
 namespace app {
 namespace {
@@ -222,7 +223,7 @@ std::uint64_t countOf(const std::vector<float>& values, double lo, double hi) {
 TEST(SteppedEnd, PassesDenormalValuesToo) {
     std::vector<double> values(27);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = 1e-310 * static_cast<double>(i + 1);
-    const auto step = timeseries::SortedStep::build({tests::cube(3), values, {}});
+    const auto step = tests::sorted({tests::cube(3), values, {}});
     const double end = steppedEnd(step, values[4], End::Hi, 1, 1e-311);
     EXPECT_GE(end, values[5]);
     EXPECT_LT(end, values[6]);
@@ -234,7 +235,7 @@ TEST(SteppedEnd, SelectsOtherPointsWithEveryStep) {
     std::vector<float> values(1000);
     for (float& value : values)
         value = 300 + std::round(std::pow(static_cast<float>(random() % 1000) / 100, 3.0f)) / 7;
-    const auto step = timeseries::SortedStep::build({tests::cube(10), values, {}});
+    const auto step = tests::sorted({tests::cube(10), values, {}});
     const double least = std::ranges::min(values), most = std::ranges::max(values);
     for (const double resolution : {1e-5, 0.3, 5.0}) {
         for (const int by : {1, -1, 10, -10}) {
@@ -316,8 +317,7 @@ TEST(AddLayer, CountsWhatOfItWasKept) {
     const auto grid = tests::cube(10);
     std::vector<float> values(1000);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
-    const auto step =
-        timeseries::SortedStep::build({grid, std::move(values), {}}, RangeSet::parse("500:max"));
+    const auto step = tests::sorted({grid, std::move(values), {}}, RangeSet::parse("500:max"));
     Explorer e;
     addLayer(e, RangeSet::parse("400:599"), step);
     EXPECT_EQ(e.layers[0].opacity, opacityFor(100, step.grid()));

@@ -12,6 +12,7 @@
 
 #include "tests/support/measured_axis.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 #include "tests/support/unstructured.h"
 
 namespace app {
@@ -22,7 +23,7 @@ using timeseries::SortedStep;
 SortedStep stepOf(std::vector<double> values) {
     auto grid = std::make_shared<const timeseries::Grid>(
         std::array{tests::axis(values.size()), tests::axis(1), tests::axis(1)});
-    return SortedStep::build({std::move(grid), std::move(values), {}});
+    return tests::sorted({std::move(grid), std::move(values), {}});
 }
 
 LayerChoice choiceFor(const SortedStep& step) { return firstChoice({step.quantiles(1025)}); }

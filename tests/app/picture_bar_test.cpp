@@ -5,6 +5,7 @@
 #include "app/picture/resolved.h"
 #include "tests/support/picture_of_a_ramp.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 
 namespace app {
 namespace {
@@ -66,8 +67,8 @@ TEST_F(PictureOfARamp, ABarOfNoLowerEndBeginsWhereTheDataDo) {
 TEST_F(PictureOfARamp, ABarOfAStepOfOneValueOrOfNoneSaysSo) {
     const auto stepOf = [](float value, bool isMissing) {
         return std::make_shared<const SortedStep>(
-            SortedStep::build({tests::cube(10), std::vector<float>(1000, value),
-                               std::vector<bool>(isMissing ? 1000 : 0, true)}));
+            tests::sorted({tests::cube(10), std::vector<float>(1000, value),
+                           std::vector<bool>(isMissing ? 1000 : 0, true)}));
     };
     const auto none = stepOf(0, true), constant = stepOf(0.1f, false), below = stepOf(-5, false);
     about_.type = timeseries::ValueType::F32;

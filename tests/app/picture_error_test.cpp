@@ -13,6 +13,7 @@
 #include "app/picture/depth_error.h"
 #include "app/picture/error_text.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 #include "tests/support/step_bytes.h"
 
 namespace app {
@@ -258,9 +259,9 @@ TEST(PictureError, TheCheapestWayWithinAnErrorDrawsLeast) {
 TEST(PictureError, OfCategoriesIsNotTold) {
     const auto grid = tests::cube(3);
     timeseries::Field field{grid, std::vector<float>(27, 1.0f), {}};
-    EXPECT_TRUE(hasDepthError(timeseries::SortedStep::build(field)));
+    EXPECT_TRUE(hasDepthError(tests::sorted(field)));
     field.categories = true;
-    EXPECT_FALSE(hasDepthError(timeseries::SortedStep::build(field)));
+    EXPECT_FALSE(hasDepthError(tests::sorted(field)));
 }
 
 }  // namespace

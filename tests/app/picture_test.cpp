@@ -12,6 +12,7 @@
 #include "app/choices/sweep_edits.h"
 #include "tests/support/picture_of_a_ramp.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 
 namespace app {
 namespace {
@@ -193,8 +194,8 @@ TEST_F(PictureOfARamp, IsOrderedByDepthWhereThatShows) {
 
 TEST_F(PictureOfARamp, AStepWithoutValuesSaysSo) {
     EXPECT_EQ(pictureOf({}).legend.emptiness, "");
-    const SortedStep none = SortedStep::build(
-        {tests::cube(10), std::vector<float>(1000), std::vector<bool>(1000, true)});
+    const SortedStep none =
+        tests::sorted({tests::cube(10), std::vector<float>(1000), std::vector<bool>(1000, true)});
     const Picture p = makePicture(resolved({}, steps_), about_, 1, none, placed_, 0);
     EXPECT_EQ(p.legend.emptiness, "all 1,000 points of this step are missing");
 }
@@ -206,7 +207,7 @@ TEST_F(PictureOfARamp, InfinitiesBendNoAxis) {
     values[0] = -std::numeric_limits<float>::infinity();
     values[999] = std::numeric_limits<float>::infinity();
     const auto step =
-        std::make_shared<const SortedStep>(SortedStep::build({tests::cube(10), values, {}}));
+        std::make_shared<const SortedStep>(tests::sorted({tests::cube(10), values, {}}));
     Explorer e = withRanges({"min:max"});
     e.layers[0].color = MapChoice{};
     e = resolved(e, {{1, step}});
@@ -227,7 +228,7 @@ TEST_F(PictureOfARamp, InfinitePointsAreSaidNotToBeAmongCells) {
     std::vector<float> values(1000, 1);
     values[0] = values[5] = -std::numeric_limits<float>::infinity();
     values[999] = std::numeric_limits<float>::infinity();
-    step_ = std::make_shared<const SortedStep>(SortedStep::build({tests::cube(10), values, {}}));
+    step_ = std::make_shared<const SortedStep>(tests::sorted({tests::cube(10), values, {}}));
     steps_ = {{1, step_}};
     const auto notesOf = [&](const std::vector<const char*>& ranges, Model model) {
         Explorer e = withRanges(ranges);
@@ -256,7 +257,7 @@ TEST_F(PictureOfARamp, AFieldOfOneLayerIsNotLit) {
                              false}});
         std::vector<float> values(grid->count());
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
-        const SortedStep step = SortedStep::build({grid, values, {}});
+        const SortedStep step = tests::sorted({grid, values, {}});
         Explorer e = withRanges({"1:5"});
         e.model = Model::Cells;
         e.layers[0].color = MapChoice{{}, 0.0, 9.0};

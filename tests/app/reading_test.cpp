@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/support/shown_steps.h"
+#include "tests/support/sorted.h"
 #include "tests/support/unstructured.h"
 
 namespace app {
@@ -16,7 +17,7 @@ std::string textOf(T value, const std::string& units) {
     tests::ShownSteps world(2);
     world.dataset.variable.units = units;
     world.steps[0] = std::make_shared<const timeseries::SortedStep>(
-        timeseries::SortedStep::build({tests::cube(2), std::vector<T>(8, value), {}}));
+        tests::sorted({tests::cube(2), std::vector<T>(8, value), {}}));
     Reading reading;
     reading.value = world.steps[0]->value(0);
     return valueText(reading, world.shown());
@@ -48,7 +49,7 @@ TEST(ReadingText, APlaceWithoutNeighboursHasOneIndex) {
         tests::bricks({3, 2, 2}, tests::Cut::Hexahedra,
                       [](double i, double j, double k) { return glm::dvec3(i, j, k); })));
     world.steps[0] = std::make_shared<const timeseries::SortedStep>(
-        timeseries::SortedStep::build({grid, std::vector<float>{5, 6}, {}}));
+        tests::sorted({grid, std::vector<float>{5, 6}, {}}));
     Reading reading;
     reading.index = {1, 0, 0};
     reading.position = {1.5, 0.5, 0.25};
@@ -69,7 +70,7 @@ TEST(ReadingText, APlaceBesideOtherAxesHasItsLongitudeAndLatitudeToo) {
         std::vector<glm::dvec2>{{10, 50}, {-20.25, 40.5}, {30, 60}, {1e20, 0}});
     const auto grid = std::make_shared<const timeseries::Grid>(tests::cube(2)->withEarth(earth));
     world.steps[0] = std::make_shared<const timeseries::SortedStep>(
-        timeseries::SortedStep::build({grid, std::vector<float>(8, 1.0f), {}}));
+        tests::sorted({grid, std::vector<float>(8, 1.0f), {}}));
     const auto lines = placeLines(reading, world.shown());
     ASSERT_EQ(lines.size(), 5u);
     EXPECT_EQ(lines[2].text, positionText(reading, world.shown(), 2));
@@ -91,7 +92,7 @@ TEST(ReadingText, APlaceAlongTurnedAxesIsToldInSpaceToo) {
         std::array{Axis{"i", "mm", {0, 2}}, Axis{"j", "mm", {0, 3}}, Axis{"k", "mm", {0, 4}}},
         frame);
     world.steps[0] = std::make_shared<const timeseries::SortedStep>(
-        timeseries::SortedStep::build({grid, std::vector<float>(8, 1.0f), {}}));
+        tests::sorted({grid, std::vector<float>(8, 1.0f), {}}));
     Reading reading;
     reading.index = {1, 1, 0};
     reading.position = grid->position(3);

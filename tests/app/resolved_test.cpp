@@ -14,6 +14,7 @@
 #include "app/choices/layer_colors.h"
 #include "tests/support/picture_of_a_ramp.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 
 namespace app {
 namespace {
@@ -163,7 +164,7 @@ Explorer firstOfClasses(const std::vector<std::pair<int, std::size_t>>& classes,
                             std::move(values),
                             {}};
     field.categories = categories;
-    return resolved({}, {{0, std::make_shared<const SortedStep>(SortedStep::build(field))}});
+    return resolved({}, {{0, std::make_shared<const SortedStep>(tests::sorted(field))}});
 }
 
 TEST(FirstLayers, OfClassesAreOneEachButForTheMostCommon) {

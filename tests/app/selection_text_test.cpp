@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 
 namespace app {
 namespace {
@@ -31,7 +32,7 @@ class SelectionText : public testing::Test {
             std::array{tests::axis(points), tests::axis(1), tests::axis(1)});
         sorted = values;
         std::ranges::sort(sorted);
-        return SortedStep::build({grid, std::move(values), {}}, kept);
+        return tests::sorted({grid, std::move(values), {}}, kept);
     }
     std::mt19937 random_{63};
 };
@@ -125,12 +126,11 @@ TEST(SelectionTextOf, WhatIsNeitherIsRefusedByItsText) {
 }
 
 TEST(SelectionTextOf, NoPointsHaveNoShare) {
-    const SortedStep empty =
-        SortedStep::build({std::make_shared<timeseries::Grid>(
-                               std::array{tests::axis(1), tests::axis(1), tests::axis(1)}),
-                           std::vector<float>{1},
-                           {}},
-                          RangeSet::parse("5:6"));
+    const SortedStep empty = tests::sorted({std::make_shared<timeseries::Grid>(std::array{
+                                                tests::axis(1), tests::axis(1), tests::axis(1)}),
+                                            std::vector<float>{1},
+                                            {}},
+                                           RangeSet::parse("5:6"));
     EXPECT_THROW(parseSelection("top 5 %", empty), std::invalid_argument);
     EXPECT_EQ(parseSelection("5:6", empty), RangeSet::parse("5:6"));
 }

@@ -1,4 +1,5 @@
 #include "app/exploration/value_map.h"
+#include "tests/support/sorted.h"
 
 #include <gtest/gtest.h>
 
@@ -19,8 +20,7 @@ using timeseries::SortedStep;
 SortedStep stepOf(std::vector<float> values) {
     const auto n = values.size();
     Axis x{"x", "m", timeseries::indexCoordinates(n)}, one{"y", "m", {0}};
-    return SortedStep::build(
-        {std::make_shared<Grid>(std::array{x, one, one}), std::move(values), {}});
+    return tests::sorted({std::make_shared<Grid>(std::array{x, one, one}), std::move(values), {}});
 }
 
 std::vector<float> randomValues(std::size_t n) {

@@ -11,6 +11,7 @@
 #include "render/splat/gl_cells.h"
 #include "tests/support/gl_buffers.h"
 #include "tests/support/gl_cell_planes.h"
+#include "tests/support/sorted.h"
 
 namespace render {
 namespace {
@@ -161,8 +162,7 @@ TYPED_TEST_SUITE(GlCellListingOf, Types);
 
 TYPED_TEST(GlCellListingOf, IsTheProcessors) {
     using E = Ends<TypeParam>;
-    CellWorld world(timeseries::SortedStep::build(wavesOf<TypeParam>(14, E::lo, E::hi)),
-                    {"min:max", "min:max"});
+    CellWorld world(tests::sorted(wavesOf<TypeParam>(14, E::lo, E::hi)), {"min:max", "min:max"});
     select(world, E::lo, E::hi);
     for (const OpacityPer per : {OpacityPer::Length, OpacityPer::Crossing}) {
         world.scene.opacityPer = per;
@@ -174,8 +174,7 @@ TYPED_TEST(GlCellListingOf, IsTheProcessors) {
 // The corners of the cells that are asked for, and each time as much of the field, until that is
 // there.
 TEST_F(GlCellListing, SendsTheFieldByAndBy) {
-    CellWorld world(timeseries::SortedStep::build(wavesOf<std::int32_t>(40, 0, 1e6, 24)),
-                    {"min:max", "min:max"});
+    CellWorld world(tests::sorted(wavesOf<std::int32_t>(40, 0, 1e6, 24)), {"min:max", "min:max"});
     Cells& cells = world.scene.layers[0].cells;
     cells.ranges = {{8.6e5, 8.65e5}};
     cells.candidates = world.scene.cells->select(cells.ranges);
@@ -194,8 +193,7 @@ TEST_F(GlCellListing, SendsTheFieldByAndBy) {
     EXPECT_GE(calls, 2u);
     expectAre(listed(world.scene, lister_), pieces);
     // Of another step nothing is there.
-    CellWorld other(timeseries::SortedStep::build(wavesOf<std::int32_t>(40, 0, 1.1e6, 24)),
-                    {"min:max", "min:max"});
+    CellWorld other(tests::sorted(wavesOf<std::int32_t>(40, 0, 1.1e6, 24)), {"min:max", "min:max"});
     other.scene.layers.pop_back();
     other.scene.layers[0].cells = {cells.ranges, other.scene.cells->select(cells.ranges)};
     expectAre(listed(other.scene, lister_), expected(other.scene));
@@ -204,8 +202,7 @@ TEST_F(GlCellListing, SendsTheFieldByAndBy) {
 
 // Nor is it ever sent where it is more than a scene may take.
 TEST_F(GlCellListing, AFieldTooLargeStaysWhereItIs) {
-    CellWorld world(timeseries::SortedStep::build(wavesOf<double>(30, 0, 1, 24)),
-                    {"min:max", "min:max"});
+    CellWorld world(tests::sorted(wavesOf<double>(30, 0, 1, 24)), {"min:max", "min:max"});
     select(world, 0, 1);
     world.scene.layers.erase(world.scene.layers.begin());
     const Pieces pieces = expected(world.scene);
@@ -231,14 +228,13 @@ TEST_F(GlCellListing, ValuesFarBeyondFloatsAreTheProcessors) {
           std::pair<timeseries::Values, const char*>(tiny, "-5e-301:5e-301"),
           std::pair<timeseries::Values, const char*>(whole, "4503599627330496:4503599627410496")}) {
         SCOPED_TRACE(range);
-        const CellWorld world(timeseries::SortedStep::build({grid, values, {}}), {range});
+        const CellWorld world(tests::sorted({grid, values, {}}), {range});
         expectAre(listed(world.scene, lister_), expected(world.scene));
     }
 }
 
 TEST_F(GlCellListing, OctantsOfWhatIsMissingOrClippedAreTheProcessors) {
-    CellWorld world(timeseries::SortedStep::build(wavesOf<float>(12, -3, 2)),
-                    {"min:max", "min:max"});
+    CellWorld world(tests::sorted(wavesOf<float>(12, -3, 2)), {"min:max", "min:max"});
     select(world, -3, 2);
     auto parted = [](const GlCell& c) { return (c.kind & 15) != kWholeCell; };
     const auto pieces = expected(world.scene);

@@ -12,6 +12,7 @@
 #include "tests/support/gl_cell_planes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sampled_errors.h"
+#include "tests/support/sorted.h"
 
 namespace render {
 namespace {
@@ -228,10 +229,9 @@ TEST_F(GlCellsOf, ValuesFarBeyondFloatsAreTheProcessors) {
         huge[i] = 1e300 * at;
         whole[i] = (std::int64_t{1} << 52) + static_cast<std::int64_t>(std::round(1000 * at));
     }
-    const CellWorld ofHuge(timeseries::SortedStep::build({grid, std::move(huge), {}}),
-                           {"-5e299:5e299"});
+    const CellWorld ofHuge(tests::sorted({grid, std::move(huge), {}}), {"-5e299:5e299"});
     expectTheProcessors(ofHuge.scene, kOutside, 1e-4);
-    const CellWorld ofWhole(timeseries::SortedStep::build({grid, std::move(whole), {}}),
+    const CellWorld ofWhole(tests::sorted({grid, std::move(whole), {}}),
                             {"4503599627370296:4503599627370696"});
     expectTheProcessors(ofWhole.scene, kOutside, 1e-4);
     const CellWorld plateau(sampled(grid, [](const glm::dvec3&) { return 3.0; }), {"2:4"});
@@ -272,7 +272,7 @@ TEST_F(GlCellsOf, TurbulenceIsTrueHoweverThinTheRange) {
     const double mean = sum / count, between = std::sqrt(steps / count);
     for (const auto& [width, bound] :
          {std::pair(1.0, 0.01), std::pair(0.3, 0.03), std::pair(0.03, 0.12)}) {
-        const CellWorld world(timeseries::SortedStep::build(timeseries::Field(field)),
+        const CellWorld world(tests::sorted(timeseries::Field(field)),
                               {std::to_string(mean) + "~" + std::to_string(width * between / 2)});
         const View view = lookFrom({1.2, -2.6, 0.9}, {600, 600}, 0.36);
         std::vector<float> depth = plane(world.scene, view, Channels::Weight);

@@ -14,6 +14,7 @@
 #include "tests/support/gl_buffers.h"
 #include "tests/support/gl_cell_planes.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sorted.h"
 #include "tests/support/unstructured.h"
 
 namespace render {
@@ -272,7 +273,7 @@ TEST_F(GlTetsOf, ValuesFarBeyondFloatsAreTheProcessors) {
             std::vector<double> values(grid->count());
             for (std::size_t i = 0; i < values.size(); ++i)
                 values[i] = by * (double(i * 7919 % 1000) / 1000);
-            return timeseries::SortedStep::build({grid, std::move(values), {}});
+            return tests::sorted({grid, std::move(values), {}});
         };
         expectTheProcessors(CellWorld(scaled(1e300), {"3e299:6e299"}).scene, kOutside, 3e-4);
         expectTheProcessors(CellWorld(scaled(1e-300), {"3e-301:6e-301"}).scene, kOutside, 3e-4);

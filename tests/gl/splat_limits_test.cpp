@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "render/gl/pass.h"
+#include "tests/support/sorted.h"
 #include "tests/support/splats_and_truth.h"
 
 namespace render {
@@ -111,7 +112,7 @@ TEST_F(GlSplat, ColourByValueDoesNotSufferFromValuesFarOutsideTheMap) {
     values[5] = -1e34f;
     values[77] = std::numeric_limits<float>::infinity();
     values[99] = -std::numeric_limits<float>::infinity();
-    const auto step = timeseries::SortedStep::build({cube(24), values, {}});
+    const auto step = tests::sorted({cube(24), values, {}});
     const PlacedPoints placed(step.grid());
     const View view = lookFrom({1, -3, 1}, {300, 300});
     for (const auto& [lo, hi] : {std::pair(0.3, 0.6), std::pair(-1e34, 1.0)}) {

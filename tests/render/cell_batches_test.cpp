@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/support/cell_worlds.h"
+#include "tests/support/sorted.h"
 
 namespace render {
 namespace {
@@ -46,7 +47,7 @@ tests::CellWorld worldOf(Field field, int ranges = 1) {
         const double from = 90.0 * k / ranges, to = from + 45.0 / ranges;
         several += (k > 0 ? "," : "") + std::to_string(from) + ":" + std::to_string(to);
     }
-    return {timeseries::SortedStep::build(std::move(field)), {"20:60", several}};
+    return {tests::sorted(std::move(field)), {"20:60", several}};
 }
 
 // Every cell of both layers, anyhow.

@@ -14,6 +14,7 @@
 #include "tests/bench/turbulence.h"
 #include "tests/support/cell_rays.h"
 #include "tests/support/sampled_errors.h"
+#include "tests/support/sorted.h"
 
 namespace {
 
@@ -58,7 +59,7 @@ TEST(CellsOfTurbulence, AreTrueHoweverThinTheRange) {
         const double between = std::sqrt(steps / count);
         for (const double share : {1.0, 0.3, 0.1, 0.03, 0.01}) {
             const double width = share * deviation;
-            const CellWorld world(SortedStep::build(Field(field)),
+            const CellWorld world(tests::sorted(Field(field)),
                                   {std::to_string(mean) + "~" + std::to_string(width / 2)});
             EXPECT_LT(errorOf(world), boundOf(width / between))
                 << side << ", " << width / between << " steps";
@@ -75,7 +76,7 @@ TEST(CellsOfBytes, OfNoiseAreTrue) {
     field.values = values;
     // A step between neighbours is 255 / sqrt(6).
     for (const auto& [range, width] : {std::pair("20:200", 181), {"100:130", 31}, {"128", 1}}) {
-        const CellWorld world(SortedStep::build(Field(field)), {range});
+        const CellWorld world(tests::sorted(Field(field)), {range});
         EXPECT_LT(errorOf(world), boundOf(width / 104.0)) << range;
     }
 }
@@ -92,7 +93,7 @@ TEST(CellsOfBytes, OfLabelsAreTrue) {
     }
     field.values = values;
     for (const char* range : {"1", "2", "7", "1:2"}) {
-        const CellWorld world(SortedStep::build(Field(field)), {range});
+        const CellWorld world(tests::sorted(Field(field)), {range});
         EXPECT_LT(errorOf(world), 0.01) << range;
     }
 }
@@ -108,7 +109,7 @@ TEST(CellsOfPlateaus, OfWaterAndAirAreTrue) {
         values[i] = p.z < 20.2 + 0.3 * p.x - 0.2 * p.y ? 1 : 0;
     }
     for (const char* range : {"0.5:max", "min:0.5", "1", "0"}) {
-        const CellWorld world(SortedStep::build(cube(kSide, values)), {range});
+        const CellWorld world(tests::sorted(cube(kSide, values)), {range});
         EXPECT_LT(errorOf(world), 0.01) << range;
     }
 }
@@ -128,7 +129,7 @@ TEST(CellsOfAKnownField, TendToItAsTheirSpacingSquared) {
         std::vector<float> values(grid->count());
         for (std::size_t i = 0; i < values.size(); ++i)
             values[i] = static_cast<float>(valueAt(glm::dvec3(grid->indices(i))));
-        const CellWorld world(SortedStep::build(cube(side, values)),
+        const CellWorld world(tests::sorted(cube(side, values)),
                               {std::to_string(kLo) + ":" + std::to_string(kHi)});
         const auto spacing = world.placed.positions()[0][1] - world.placed.positions()[0][0];
         const IntervalTruth truth(world.scene, world.scene.cells->field(), 1);

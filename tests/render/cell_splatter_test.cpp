@@ -11,6 +11,7 @@
 #include "render/reference/interval_truth.h"
 #include "tests/support/cell_rays.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 
 namespace render {
 namespace {
@@ -200,7 +201,7 @@ TEST(CellSplatter, RangesOfWholeNumbersReachHalfANumberFarther) {
     std::vector<std::uint8_t> values;
     for (std::size_t i = 0; i < grid->count(); ++i)
         values.push_back(static_cast<std::uint8_t>(grid->indices(i).x));
-    const CellWorld world(timeseries::SortedStep::build({grid, std::move(values), {}}), {"3"});
+    const CellWorld world(tests::sorted({grid, std::move(values), {}}), {"3"});
     const View view = tests::lookFrom({3, 1e-3, 2e-3}, {9, 9}, 0.01);
     EXPECT_NEAR(drawn(world.scene, view)[4 * 9 + 4], 1, 1e-3);
 }

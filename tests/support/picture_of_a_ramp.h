@@ -8,6 +8,7 @@
 #include "app/picture/picture.h"
 #include "app/picture/resolved.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 
 namespace app::ramp {
 
@@ -22,7 +23,7 @@ class PictureOfARamp : public testing::Test {
         for (std::size_t i = 0; i < values.size(); ++i)
             values[i] = static_cast<float>(first + static_cast<double>(i));
         return std::make_shared<const SortedStep>(
-            SortedStep::build({tests::cube(10), std::move(values), {}}, kept));
+            tests::sorted({tests::cube(10), std::move(values), {}}, kept));
     }
     PictureOfARamp() {
         about_.name = "T";

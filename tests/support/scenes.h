@@ -9,6 +9,7 @@
 
 #include "render/model/scene.h"
 #include "render/points/view.h"
+#include "tests/support/sorted.h"
 
 namespace tests {
 
@@ -38,7 +39,7 @@ template <typename F>
 timeseries::SortedStep stepOf(std::shared_ptr<const timeseries::Grid> grid, const F& f) {
     std::vector<float> values(grid->count());
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(f(i));
-    return timeseries::SortedStep::build({std::move(grid), std::move(values), {}});
+    return tests::sorted({std::move(grid), std::move(values), {}});
 }
 
 // A field of a grid's places.

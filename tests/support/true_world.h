@@ -14,6 +14,7 @@
 
 #include "render/reference/interval_truth.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 
 namespace render::true_world {
 
@@ -40,7 +41,7 @@ Field fieldOn(std::shared_ptr<const Grid> grid, const OfPoint& f) {
 struct TrueWorld {
     TrueWorld(Field of, const std::vector<std::vector<Interval<double>>>& layers)
         : field(std::move(of)),
-          step(timeseries::SortedStep::build(field)),
+          step(tests::sorted(field)),
           placed(*field.grid),
           scene{.step = step,
                 .placed = placed,

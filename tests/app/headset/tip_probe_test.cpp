@@ -9,6 +9,7 @@
 #include "app/headset/standing.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 #include "tests/support/unstructured.h"
 
 namespace app::headset {
@@ -141,8 +142,8 @@ TEST(PointSearch, FindsEachPointInSlicesOfAnySize) {
 TEST(PointSearch, EndsWhereThereIsNoValue) {
     const auto grid = tests::cube(3);
     const auto step =
-        shared(SortedStep::build({grid, std::vector<float>{std::vector<float>(27, 5)}, {}},
-                                 timeseries::RangeSet::parse("0:1")));
+        shared(tests::sorted({grid, std::vector<float>{std::vector<float>(27, 5)}, {}},
+                             timeseries::RangeSet::parse("0:1")));
     PointSearch search;
     EXPECT_TRUE(search.ended()) << "nothing is looked for";
     search.look(step, 3, 10);

@@ -39,14 +39,14 @@ const VdbLibrary* loaded() {
 }  // namespace
 
 VdbFile::VdbFile(const std::filesystem::path& path, Header header) : path_(path) {
+    const auto read = [&] { contents_ = loaded()->contents(path); };
+    if (header == Header::New) tryInCopy("header", 0, read);
     try {
         library_ = loaded();
     } catch (const std::runtime_error& error) {
         fail("OpenVDB",
              fmt::format("expected this program's part that reads it, but {}", error.what()));
     }
-    const auto read = [&] { contents_ = library_->contents(path); };
-    if (header == Header::New) tryInCopy("header", 0, read);
     told("header", read);
 }
 
@@ -79,6 +79,9 @@ void VdbFile::tryInCopy(std::string_view place, std::uint64_t more,
     const auto fileBytes = std::filesystem::file_size(path_, unknown);
     const std::string end = endOfForked(
         [&] {
+            // Here first: it starts threads, and to copy a process while its threads begin may copy
+            // a lock that stays shut.
+            loaded();
             allowMemory((unknown ? 0 : kUnpacked * fileBytes) + kBeside + more);
             try {
                 work();
