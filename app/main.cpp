@@ -5,6 +5,7 @@
 
 #include "app/choices/choice_text.h"
 #include "app/command/commands.h"
+#include "app/exploration/memory_budget.h"
 #include "app/files/step_cache.h"
 #include "app/say.h"
 #include "timeseries/index/sorted_step.h"
@@ -38,7 +39,8 @@ int main(int argc, char** argv) {
             app::parse(std::span<const char* const>(argv + 1, argv + argc));
         const app::CommonOptions common = app::commonOf(command);
         timeseries::threadLimit = common.threads;
-        app::chooseStepCache(common.cache);
+        app::chooseStepCache(common.cache, common.cacheSize);
+        app::chosenMemory = common.memory;
         const int code = std::visit(Run{}, command);
         // A full disk behind a redirection shows only now.
         if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");

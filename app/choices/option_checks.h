@@ -63,6 +63,25 @@ inline CLI::Validator oneOf(std::vector<std::string> words) {
         known);
 }
 
+// 500MB, 64GiB, or bytes: CLI11's units. Becomes bytes, at least one.
+inline CLI::Validator sizeOfBytes() {
+    return CLI::Validator(
+        [](std::string& text) -> std::string {
+            std::string read = text;
+            try {
+                // It takes signs and units alone, too.
+                if (!text.empty() && text[0] >= '1' && text[0] <= '9' &&
+                    CLI::AsSizeValue(true)(read).empty()) {
+                    text = read;
+                    return {};
+                }
+            } catch (const CLI::ValidationError&) {
+            }
+            return fmt::format("'{}' is not a size such as 500MB or 64GiB", text);
+        },
+        "SIZE");
+}
+
 inline CLI::Validator notEmpty() {
     return CLI::Validator(
         [](std::string& text) { return std::string(text.empty() ? "is an empty text" : ""); }, "");

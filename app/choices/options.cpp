@@ -354,8 +354,17 @@ Command parse(std::span<const char* const> arguments) {
                          "The folder in which sorted steps are kept, or off; without it the "
                          "user's own")
             ->check(notEmpty());
+        each->add_option("--cache-size", common.cacheSize,
+                         "At most so much for it, as 200GB: what was used last stays; without it "
+                         "a tenth of its disk, 64GiB at most")
+            ->transform(sizeOfBytes());
         each->footer(kFooter);
     }
+    for (CLI::App* each : {viewApp, renderApp, measureApp})
+        each->add_option("--memory", common.memory,
+                         "At most so much memory for loaded steps, as 8GB, though for one always; "
+                         "without it a quarter of the machine's")
+            ->transform(sizeOfBytes());
     const auto with = [&common](auto options) {
         static_cast<CommonOptions&>(options) = common;
         return options;

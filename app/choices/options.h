@@ -1,6 +1,7 @@
 // The command line, parsed once into types.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -18,6 +19,8 @@ namespace app {
 struct CommonOptions {
     unsigned threads = 0;  // at most; 0: as many as the machine has
     std::string cache;     // a folder of sorted steps, "off", or "": the user's own
+    std::optional<std::uint64_t> cacheSize;  // bytes that it may take; none: by its disk
+    std::uint64_t memory = 0;  // bytes that loaded steps may take; 0: by the machine's
 };
 
 struct InfoOptions : CommonOptions {

@@ -2,7 +2,6 @@
 // rank has memory for, are sorted by all of them together.
 #ifdef ISOCHRON_MPI
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +12,7 @@
 #include "app/files/dataset.h"
 #include "app/say.h"
 #include "timeseries/grid/with_type.h"
+#include "timeseries/machine_memory.h"
 #include "timeseries/ranks/shared_step.h"
 #include "timeseries/sentence.h"
 #include "timeseries/together.h"
@@ -43,9 +43,8 @@ struct MpiProgram {
 bool fitsEach(const timeseries::Variable& variable, unsigned ranksOfMachine) {
     const std::uint64_t value =
         timeseries::withType(variable.type, [](auto of) { return std::uint64_t{sizeof of}; });
-    const auto memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-                        static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    return variable.grid->count() * (2 * value + 4) < memory / 4 * 3 / ranksOfMachine;
+    return variable.grid->count() * (2 * value + 4) <
+           timeseries::machineMemory() / 4 * 3 / ranksOfMachine;
 }
 
 // This rank's part of a grid: slices along the last index that has enough of them, else along the

@@ -158,13 +158,12 @@ void tellNoRoom(const IndexedSteps& done, StepStore& store) {
     const std::uint64_t each = std::max({done.refusedBytes, store.room().refused(),
                                          held.bytes / std::max<std::uint64_t>(held.files, 1)});
     const std::size_t count = done.of(StepMaker::Kept::NoRoom);
-    sayTo(
-        stderr,
-        "isochron: {} takes {} (a tenth of its disk, 64 GiB at most): {} of these steps did not "
-        "fit, a budget of about {} would hold all of them; --cache names another folder, --beside "
-        "writes beside the data, with no such limit\n",
-        store.folder().string(), megabytesText(store.budget()), withCommas(count),
-        megabytesText(held.bytes + count * each));
+    sayTo(stderr,
+          "isochron: {} takes {} at most: {} of these steps did not fit, about --cache-size {}MB "
+          "would hold all of them; --cache names another folder, --beside writes beside the data, "
+          "with no such limit\n",
+          store.folder().string(), megabytesText(store.budget()), withCommas(count),
+          (held.bytes + count * each) / 1'000'000 + 1);
 }
 
 }  // namespace

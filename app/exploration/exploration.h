@@ -26,6 +26,7 @@
 #include "app/choices/explorer.h"
 #include "app/choices/history.h"
 #include "app/exploration/live_steps.h"
+#include "app/exploration/memory_budget.h"
 #include "app/exploration/opening.h"
 #include "app/exploration/point_counts.h"
 #include "app/files/dataset.h"
@@ -46,8 +47,8 @@ struct Shown {
 class Exploration {
  public:
     struct Settings {
-        std::uint64_t budgetBytes = std::uint64_t{4} << 30;  // of steps in memory
-        std::function<void()> wake = [] {};                  // from other threads: something came
+        std::uint64_t budgetBytes = memoryBudget();  // of steps in memory
+        std::function<void()> wake = [] {};          // from other threads: something came
         DatasetOpener openDataset = app::openDataset;
     };
     explicit Exploration(Settings settings);

@@ -1,16 +1,12 @@
 #include "app/exploration/step_source.h"
 
+#include "app/exploration/memory_budget.h"
 #include "app/files/step_cache.h"
 
 namespace app {
-namespace {
-
-constexpr std::uint64_t kBudgetBytes = std::uint64_t{4} << 30;
-
-}  // namespace
 
 StepSource::StepSource(OpenDataset& dataset, timeseries::RangeSet kept, timeseries::RangeSet asked)
-    : series_(dataset.stepCount(), kBudgetBytes, timeseries::Quantiles::None),
+    : series_(dataset.stepCount(), memoryBudget(), timeseries::Quantiles::None),
       stores_(storesFor(dataset.reader->files())),
       loader_(
           std::move(dataset.reader), dataset.variableIndex, std::move(kept), [] {},

@@ -18,6 +18,7 @@ using timeseries::StoreKind;
 struct Chosen {
     std::mutex mutex;
     std::string choice;
+    std::optional<std::uint64_t> budget;
     std::shared_ptr<StepStore> store;  // once asked for
 };
 
@@ -28,9 +29,10 @@ Chosen& chosen() {
 
 }  // namespace
 
-void chooseStepCache(const std::string& choice) {
+void chooseStepCache(const std::string& choice, std::optional<std::uint64_t> budget) {
     const std::lock_guard lock(chosen().mutex);
     chosen().choice = choice;
+    chosen().budget = budget;
     chosen().store = nullptr;
 }
 
@@ -40,8 +42,9 @@ std::shared_ptr<StepStore> stepCache() {
     fs::path folder = chosen().choice;
     if (folder.empty() && !cacheFolder().empty()) folder = cacheFolder() / "steps";
     if (!folder.empty())
-        chosen().store = std::make_shared<StepStore>(folder, StoreKind::Cache,
-                                                     timeseries::defaultCacheBudget(folder));
+        chosen().store = std::make_shared<StepStore>(
+            folder, StoreKind::Cache,
+            chosen().budget ? *chosen().budget : timeseries::defaultCacheBudget(folder));
     return chosen().store;
 }
 

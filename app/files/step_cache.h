@@ -1,8 +1,10 @@
 // Where this program finds sorted steps on disk, and where it keeps them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -10,9 +12,10 @@
 
 namespace app {
 
-// `choice`: of --cache: a folder, "off", or "" for the user's own. Once, before the stores are
-// asked for: it is the whole program's.
-void chooseStepCache(const std::string& choice);
+// `choice`: of --cache: a folder, "off", or "" for the user's own; it may take so many bytes
+// (without it a tenth of its disk, 64 GiB at most). Once, before the stores are asked for: it is
+// the whole program's.
+void chooseStepCache(const std::string& choice, std::optional<std::uint64_t> budget = {});
 
 // Null where it is off, or nothing can be kept.
 std::shared_ptr<timeseries::StepStore> stepCache();

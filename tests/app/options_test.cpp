@@ -86,7 +86,28 @@ TEST(Options, EveryCommandTakesALimitOfThreadsAndACache) {
         EXPECT_EQ(commonOf(parsed(line)).cache, "off") << line[0];
         line.back() = "";
         EXPECT_THAT(refused(line), HasSubstr("--cache")) << line[0];
+        line.resize(line.size() - 2);
+        EXPECT_EQ(commonOf(parsed(line)).cacheSize, std::nullopt) << line[0];
+        line.insert(line.end(), {"--cache-size", "200GB"});
+        EXPECT_EQ(commonOf(parsed(line)).cacheSize, 200'000'000'000u) << line[0];
     }
+}
+
+TEST(Options, StepsInMemoryTakeWhatIsChosenInUnitsOfBytes) {
+    const auto line = [](const char* size) {
+        return std::vector<std::string>{"view", "a.nc", "--memory", size};
+    };
+    EXPECT_EQ(commonOf(parsed({"view", "a.nc"})).memory, 0u);
+    EXPECT_EQ(commonOf(parsed(line("8GB"))).memory, 8'000'000'000u);
+    EXPECT_EQ(commonOf(parsed(line("8 gib"))).memory, std::uint64_t{8} << 30);
+    EXPECT_EQ(commonOf(parsed(line("1500"))).memory, 1500u);
+    for (const char* wrong : {"0", "-1GB", "GB", "1.5GB", "8 apples", "99999999999GB", ""})
+        EXPECT_THAT(refused(line(wrong)),
+                    HasSubstr(std::string("'") + wrong + "' is not a size such as"));
+    EXPECT_EQ(commonOf(parsed({"render", "a.nc", "-o", "a.png", "--memory", "1MB"})).memory,
+              1'000'000u);
+    EXPECT_EQ(commonOf(parsed({"measure", "a.nc", "--memory", "1MB"})).memory, 1'000'000u);
+    EXPECT_THAT(refused({"info", "a.nc", "--memory", "1MB"}), HasSubstr("--memory"));
 }
 
 TEST(Options, StepsAreIndexedOfVariablesAndSteps) {

@@ -1,7 +1,7 @@
 # A step sorted ahead is the step: counts, lists and pictures from the index are those of the file, to
 # the bit; cmake -DPROGRAM= -DCOMPARE= -DWORK= -DFILE= -P stored.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/functions.cmake)
-file(REMOVE_RECURSE ${WORK}/steps ${WORK}/isochron-index)
+file(REMOVE_RECURSE ${WORK}/steps ${WORK}/small ${WORK}/isochron-index)
 configure_file(${FILE} ${WORK}/field.nc COPYONLY)
 
 # told(WANTED...): the last run ended well and said all of that.
@@ -26,6 +26,14 @@ set(counted "${out}")
 run("${program} render field.nc --range 40:100 -o off.png --portable --cache off")
 run("${program} render field.nc --range 40:100 -o points_off.png --portable --model points --cache off")
 
+# What is told to hold all of them does.
+run("${program} index field.nc --cache small --cache-size 1kB")
+if(NOT code EQUAL 1 OR NOT err MATCHES "small takes [^\n]* 2 of these steps did not fit, about (--cache-size [0-9]+MB)")
+  fail("expected no room, and how much would do")
+endif()
+run("${program} index field.nc --cache small ${CMAKE_MATCH_1}")
+told("2 steps: 2 written, 0 there before")
+
 run("${program} index field.nc --cache steps")
 told("2 steps: 2 written, 0 there before")
 run("${program} index field.nc --cache steps --jobs 2")
@@ -45,7 +53,8 @@ if(NOT out STREQUAL counted)
   fail("expected what is counted in the file: ${counted}")
 endif()
 run("${program} render field.nc --range 40:100 -o on.png --portable --cache steps")
-run("${program} render field.nc --range 40:100 -o points_on.png --portable --model points --cache steps")
+# Of one step at a time: there is no memory for two.
+run("${program} render field.nc --range 40:100 -o points_on.png --portable --model points --cache steps --memory 1kB")
 foreach(kind "" points_)
   run("[==[${COMPARE}]==] same ${kind}off.png ${kind}on.png")
   told()
