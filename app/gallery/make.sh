@@ -54,6 +54,15 @@ picture "$data/fmri_filtered_func_64t.nii.gz" brain.png --size 1000x750 --step 3
 picture "$data/grids/emd_3001.map" density_map.png --size 1000x750 --view 30,15 --range 0.3:max --color '#3aa0ff' --opacity 0.6
 picture "$data/grids/chombo3d/chombo3d.vtm" adaptive_mesh.png --size 1000x750 --range=-0.034~0.0004,-0.026~0.0004,-0.018~0.0004 --colormap viridis --opacity 0.45
 picture "$data/grids/openpmd_femm_3d.h5" magnet.png --size 1000x750
+picture "$data/colpex_theta_rotpole_hybridheight.nc" hills.png --size 1000x750 --step 3 --view 30,40 --range min:max --colormap viridis --opacity 0.95 --light full
+
+# Over time.
+for step in 02 06 12 20; do
+    picture "$data/mug_transient.e" "over_time_mug_$step.png" --variable convected --step "$((10#$step))" --size 600x450 --view 30,25 --range min:0.2 --colormap viridis --opacity 0.5
+done
+for step in 00 07 14 20; do
+    picture "$data/grids/warping_spheres.vtkhdf" "over_time_spheres_$step.png" --step "$((10#$step))" --size 600x450 --view 25,20 --range min:max --colormap cool-warm --opacity 0.8
+done
 
 # First looks: nothing is asked for, the program chooses.
 for first in isabel_windspeed_4d.nrrd hipip_ironProt_68.vtk tooth_u8.nrrd headsq_quarter/quarter.nhdr \
