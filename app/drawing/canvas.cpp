@@ -12,6 +12,7 @@
 #include "app/exploration/reading.h"
 #include "app/picture/still.h"
 #include "render/frame/frame_pace.h"
+#include "render/frame/mean_depth.h"
 #include "render/gl/timer.h"
 #include "render/reference/cell_pick.h"
 #include "render/splat/cell_pieces.h"
@@ -236,6 +237,7 @@ void Canvas::State::tell(CanvasReport& report, const render::Scene& scene) const
         for (const render::Layer& layer : scene.layers)
             if (layer.byPoints) report.besideCells += render::pointCount(layer);
     }
+    report.mixesColors = render::mixesColors(scene);
     report.lacksCells = lacksCells(scene);
     report.lacksGradients = scene.cells && !scene.gradients && !cells.gaveUp(*screen->sorted) &&
                             needsGradients(screen->explorer, *screen->sorted, scene.placed);

@@ -23,6 +23,7 @@ struct CanvasReport {
     bool whole = false;           // nothing is missing: all points or cells, pixels, all uploaded
     bool lacksCells = false;      // points stand for the cells that were asked for
     bool lacksGradients = false;  // by which light is to fall on tetrahedra
+    bool mixesColors = false;     // of several colours, in no order (render/frame/mean_depth.h)
     bool lacks() const { return lacksCells || lacksGradients; }
     bool told = true;     // its legend says whether its colours are mixed; else refine() finds out
     double uploaded = 1;  // share of what the picture asked for needs

@@ -121,12 +121,14 @@ void Headset::act(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) 
 }
 
 void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanoseconds dt) {
-    std::string text = readoutText(
-        exploration_, {eyes_.canvas().screen(), eyes_.report().counts, error_.text(drawn())},
-        interaction_.tip(), eyes_.scale());
+    std::string text = readoutText(exploration_,
+                                   {eyes_.canvas().screen(), eyes_.report().counts,
+                                    error_.text(drawn()), eyes_.report().mixesColors},
+                                   interaction_.tip(), eyes_.scale());
     if (const std::string rate = eyes_.refreshRate().loweredText(); !rate.empty())
         text += "\n" + rate;
     readout_.write(text);
+    parts_ = Parts::None;
     if (!interaction_.panel()) return;
     Panel::Around around{.offers = fileActions_.offers(),
                          .help = helpText(session_->runtimeName(), session_->controls()),
@@ -136,6 +138,7 @@ void Headset::drawBoards(const xr::Session::Frame& frame, std::chrono::nanosecon
                                      .clipsByHand = interaction_.clipsByHand()}};
     const Panel::Asked asked = panel_.draw(exploration_, interaction_.pointer(), around, dt);
     asked_ = asked.interaction;
+    if (asked.requests.errorParts) parts_ = Parts::All;
     // What is saved is drawn whole.
     fileActions_.serve(asked.requests, panel_.interface(), error_.of(exploration_.explorer()));
 }
@@ -180,7 +183,8 @@ void Headset::drawEyes(xr::Session::Frame& frame, Clock::time_point began) {
         panels::askedOfMoving(panel_.interface().choices(), errors));
     checkDriver(exploration_);
     if (const Screen* const screen = eyes_.canvas().screen())
-        error_.update(*screen, viewOf(eyes.front(), interaction_.placement()), Clock::now());
+        error_.update(*screen, viewOf(eyes.front(), interaction_.placement()), Clock::now(),
+                      parts_);
     eyes_.took(began, frame.period());
     if (const auto rate = eyes_.refreshRate().wanted()) session_->requestRefreshRate(*rate);
     frame.submit(kNear, kFar);

@@ -68,6 +68,7 @@ class Headset {
     Panel panel_;
     TextBoard readout_;
     SeenError error_;
+    Parts parts_ = Parts::None;  // whether the panel shows what it comes from
     desktop::FileActions fileActions_;
     std::optional<std::chrono::nanoseconds> lastDisplay_;
     panels::Performance performance_;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/picture/error_text.h"
 #include "app/picture/picture.h"
 #include "app/picture/range_label.h"
 
@@ -53,6 +54,9 @@ std::string readoutText(const Exploration& exploration, const SeenPicture& seen,
         text += fmt::format("\n{} points{}", withCommas(seen.counts->selected),
                             seen.counts->inClipBox ? " in the clip box" : "");
     if (!seen.error.empty()) text += "\n" + seen.error;
+    // The error says it where that costs light.
+    if (seen.mixesColors && seen.error.find(kMixed) == std::string::npos)
+        text += fmt::format("\n{}", kMixed);
     if (const std::string waiting = exploration.waiting(); !waiting.empty()) text += "\n" + waiting;
     if (exploration.playback().playing) text += "\nplaying";
     if (renderScale < 1) text += fmt::format("\nresolution {} %", std::lround(100 * renderScale));

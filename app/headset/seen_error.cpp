@@ -28,7 +28,8 @@ bool isReady(const Screen& screen) {
 
 }  // namespace
 
-void SeenError::update(const Screen& screen, const render::View& view, Clock::time_point now) {
+void SeenError::update(const Screen& screen, const render::View& view, Clock::time_point now,
+                       Parts parts) {
     Explorer selection = selectionOf(screen.explorer);
     if (selection != selection_ || since_ == Clock::time_point()) {
         error_.forget();
@@ -37,13 +38,17 @@ void SeenError::update(const Screen& screen, const render::View& view, Clock::ti
         selection_ = std::move(selection);
         since_ = now;
     }
-    if (errors_ || now - since_ < kStands || !isReady(screen)) return;
-    if (!asked_) {
-        asked_ = {screen.sorted, screen.explorer, view};
+    const bool isKnown = errors_ && (parts == Parts::None || known_ == Parts::All);
+    if (isKnown || now - since_ < kStands || !isReady(screen)) return;
+    if (!asked_ || asked_->parts != parts) {
+        asked_ = {screen.sorted, screen.explorer, view, parts};
         asked_->view.hidden.reset();
     }
-    errors_ = error_.of(*asked_);
-    if (errors_) asked_.reset();
+    auto found = error_.of(*asked_);
+    if (!found) return;
+    errors_ = std::move(found);
+    known_ = parts;
+    asked_.reset();
 }
 
 std::optional<double> SeenError::of(const Explorer& explorer) const {

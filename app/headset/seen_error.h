@@ -18,8 +18,10 @@ class SeenError {
     // Of shorter ones nobody reads a figure.
     static constexpr std::chrono::milliseconds kStands{1000};
 
-    // Once a frame: what is before the eyes, and what one of them sees of it.
-    void update(const Screen& screen, const render::View& view, Clock::time_point now);
+    // Once a frame: what is before the eyes, what one of them sees of it, and whether anybody looks
+    // at what an error comes from.
+    void update(const Screen& screen, const render::View& view, Clock::time_point now,
+                Parts parts = Parts::None);
     // Of the ways to draw that selection; none while they are not known.
     const std::optional<DepthErrors>& errors() const { return errors_; }
     // Of all that this selects, drawn whole.
@@ -33,6 +35,7 @@ class SeenError {
     Clock::time_point since_{};  // that selection
     std::optional<PictureError::Picture> asked_;
     std::optional<DepthErrors> errors_;
+    Parts known_ = Parts::None;  // of these
 };
 
 }  // namespace app::headset

@@ -81,7 +81,7 @@ void Interface::draw(Exploration& exploration, const Surroundings& around, Reque
         drawSide(context, around);
         timeBar_.draw(context, context.layout.timeBar);
         // Last of those that Tab goes to: it comes and goes.
-        if (around.hasPicture) drawErrorParts(context);
+        drawErrorParts(context);
     }
     files_.draw(context);
     focus_.end(around.theme.scale);

@@ -13,7 +13,7 @@ constexpr double kLeastTold = 0.001;
 constexpr double kNothing = 1e-6;
 
 std::string orderReason(Ordering ordering) {
-    return ordering == Ordering::Mixed ? "colours mixed" : "colours within a cell";
+    return ordering == Ordering::Mixed ? kMixed : "colours within a cell";
 }
 
 }  // namespace

@@ -18,6 +18,8 @@ Bound boundOf(const RungError& known, const Rung& drawn);
 std::string shareText(double error, Bound bound = Bound::About);
 // "error about 0.4 %"; "" where it is none that can be told.
 std::string depthErrorText(double error, Bound bound = Bound::About);
+// Of a picture whose colours meet in no order.
+inline constexpr const char* kMixed = "colours mixed";
 // ", light 8 % (colours mixed)" where order costs light that shows, else "".
 std::string lightErrorText(const RungError& error, Ordering ordering);
 

@@ -45,6 +45,34 @@ TEST_F(PanelUnderARay, EachButtonAsksForItsOwnOnceAClick) {
         EXPECT_EQ(click(command), std::vector{command});
 }
 
+// As below a window's picture: somewhere on its lines it is pressed.
+TEST_F(PanelUnderARay, ThePicturesErrorOpensWhatItComesFrom) {
+    const auto opens = [&] {
+        const glm::vec2 size(kPanelPixels);
+        const panels::Rect status = panels::layoutOf(size, kPanelScale).status;
+        for (float y = status.min.y + 10; y < status.max.y; y += 10)
+            for (float x = status.min.x + 25; x < status.min.x + 400; x += 75)
+                for (const bool pressed : {false, true, true, false, false})
+                    if (panel_
+                            .draw(world_.exploration,
+                                  Pointer{.at = glm::dvec2(glm::vec2(x, y) / size),
+                                          .pressed = pressed},
+                                  around_, std::chrono::milliseconds(10))
+                            .requests.errorParts)
+                        return true;
+        return false;
+    };
+    around_.performance.report = {
+        .counts = PointCounts{.layers = {7}, .selected = 7, .kept = 64, .total = 64},
+        .whole = true};
+    draw({});
+    EXPECT_FALSE(opens());
+    around_.performance.errors = DepthErrors{.rungs = {{.rung = {Model::Cells}, .depth = 0.03}}};
+    around_.performance.report.cells = 7;
+    draw({});
+    EXPECT_TRUE(opens());
+}
+
 TEST_F(PanelUnderARay, WhereNoMoveIsLeftNoneIsTakenBack) {
     draw({});
     around_.buttons.canUndo = false;

@@ -49,6 +49,21 @@ TEST(Readout, SaysTheErrorWhereItIsKnown) {
     EXPECT_THAT(told(""), Not(HasSubstr("error")));
 }
 
+// Once: the error says it, too, where it costs light.
+TEST(Readout, SaysThatColoursAreMixed) {
+    tests::ScriptedExploration world;
+    const Screen screen = screenOf(world.exploration);
+    const auto told = [&](const char* error, bool mixes) {
+        return readoutText(world.exploration, {&screen, *world.exploration.counts(), error, mixes},
+                           {}, 1);
+    };
+    EXPECT_THAT(told("", true), HasSubstr("points\ncolours mixed"));
+    EXPECT_THAT(told("error about 3 %", true), HasSubstr("error about 3 %\ncolours mixed"));
+    EXPECT_EQ(told("error about 3 %, light 8 % (colours mixed)", true),
+              told("error about 3 %, light 8 % (colours mixed)", false));
+    EXPECT_THAT(told("error about 3 %", false), Not(HasSubstr("mixed")));
+}
+
 TEST(Readout, FollowsTheSweptWindow) {
     tests::ScriptedExploration world;
     Exploration& e = world.exploration;

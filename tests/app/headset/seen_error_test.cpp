@@ -77,6 +77,32 @@ TEST(SeenError, WaitsUntilTheSelectionStandsAndItsCellsAreThere) {
     EXPECT_NE(toldOf(error, seen, {Model::Cells}, now), "");
 }
 
+// What it comes from is asked for anew, and what was known is told meanwhile.
+TEST(SeenError, HasItsPartsWhereTheyAreLookedAt) {
+    const Seen seen = ramps("3:5", Model::Points);
+    SeenError error;
+    const Clock::time_point now = Clock::now();
+    error.update(seen.screen, seen.view, now);
+    const Rung drawn{Model::Points};
+    const std::string told = toldOf(error, seen, drawn, now);
+    const auto parts = [&] { return error.errors()->find(drawn)->parts; };
+    EXPECT_FALSE(parts());
+    const auto end = now + 60s;
+    while (!parts() && Clock::now() < end) {
+        error.update(seen.screen, seen.view, now + 5s, Parts::All);
+        ASSERT_EQ(error.text(drawn), told);
+        std::this_thread::yield();
+    }
+    ASSERT_TRUE(parts());
+    const Explorer& e = seen.screen.explorer;
+    const timeseries::SortedStep& step = *seen.screen.sorted;
+    const DepthErrors wanted = depthErrorsOf(e, step, seen.view, rungsOf(e, step), {Parts::All, 1});
+    EXPECT_EQ(parts(), wanted.find(drawn)->parts);
+    // Nobody looks any more: they stay.
+    error.update(seen.screen, seen.view, now + 6s);
+    EXPECT_TRUE(parts());
+}
+
 // Neither where the head is nor how it is lit changes it; what is selected does.
 TEST(SeenError, IsForgottenWithItsSelection) {
     Seen seen = ramps("3:5", Model::Points);
