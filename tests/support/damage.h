@@ -40,19 +40,21 @@ inline bool isRefusedInOneSentence(const std::filesystem::path& path) {
 }
 
 // `opened` is what is opened: the file itself, or one that names it. Cuts at each of some lengths,
-// bytes that are swapped or by chance, and numbers of four bytes that are hostile sizes.
-inline void damageInRounds(const std::filesystem::path& file, const std::filesystem::path& opened) {
+// bytes that are swapped or by chance, and numbers of four bytes that are hostile sizes: so many of
+// either.
+inline void damageInRounds(const std::filesystem::path& file, const std::filesystem::path& opened,
+                           int count = 400) {
     const std::string whole = readBytes(file);
     ASSERT_FALSE(isRefusedInOneSentence(opened));
     const auto tryOut = [&](const std::string& damaged) {
         writeBytes(file, damaged);
         isRefusedInOneSentence(opened);
     };
-    const std::size_t every = std::max<std::size_t>(1, whole.size() / rounds(400));
+    const std::size_t every = std::max<std::size_t>(1, whole.size() / rounds(count));
     for (std::size_t bytes = 0; bytes < whole.size(); bytes += every)
         tryOut(whole.substr(0, bytes));
     std::mt19937 random(29);
-    for (int round = 0; round < rounds(400); ++round) {
+    for (int round = 0; round < rounds(count); ++round) {
         std::string damaged = whole;
         // What says how much there is mostly stands at the beginning.
         const std::size_t among =

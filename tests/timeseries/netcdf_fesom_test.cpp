@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/support/damage.h"
 #include "tests/support/netcdf_builder.h"
 #include "tests/support/read_variables.h"
 #include "tests/support/unstructured.h"
@@ -217,6 +218,14 @@ TEST(NetcdfFesom, NodesStandForAThirdOfTheTrianglesAboutThem) {
                         << k << ' ' << n;
                 }
         }
+}
+
+// Of values, and of the mesh beside them.
+TEST(NetcdfFesom, FilesCutOrDamagedAnywhereAreReadOrRefused) {
+    freshFolder();
+    const Path mesh = writeMesh(), path = writeValues();
+    tests::damageInRounds(path, path, 30);
+    tests::damageInRounds(mesh, path, 30);
 }
 
 TEST(NetcdfFesom, TrianglesStandForThemselves) {
