@@ -261,6 +261,17 @@ TEST(NetcdfReader, MalformedAttributesAreOneSentence) {
     }
 }
 
+TEST(NetcdfReader, WhatIsSaidOfAVariableIsOneLine) {
+    const auto path = plane<float>("a.nc", {1, 2, 3, 4}, [](auto& file, int v) {
+        file.text(v, "units", "m\tper\ns \n");
+        file.text(v, "long_name", "way\r\nin a second");
+    });
+    const auto reader = open(path);
+    const Variable& variable = reader->variables()[0];
+    EXPECT_EQ(variable.units, "m per s");
+    EXPECT_EQ(variable.longName, "way  in a second");
+}
+
 // good(y, x), bad(y, x) and level(z, y, x), with attributes of bad and of the coordinate z.
 std::filesystem::path threeVariables(const std::string& name, const std::string& badScale,
                                      double zScale) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "timeseries/readers/text/words.h"
+
 namespace timeseries {
 
 std::string_view NcVariable::baseName() const {
@@ -23,7 +25,7 @@ const NcAttribute* NcAttributes::find(std::string_view attribute) const {
 std::string NcAttributes::text(std::string_view attribute) const {
     const NcAttribute* found = find(attribute);
     const auto* text = found ? std::get_if<std::string>(&found->value) : nullptr;
-    return text ? *text : "";
+    return text ? oneLine(*text) : "";
 }
 
 std::vector<double> NcAttributes::numbers(std::string_view attribute) const {

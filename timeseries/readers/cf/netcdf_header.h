@@ -35,7 +35,7 @@ struct NcAttributes {
     std::vector<NcAttribute> attributes;
 
     const NcAttribute* find(std::string_view attribute) const;
-    std::string text(std::string_view attribute) const;  // "" when absent or not text
+    std::string text(std::string_view attribute) const;  // oneLine(); "" when absent or not text
     // None when absent or text.
     std::vector<double> numbers(std::string_view attribute) const;
 };

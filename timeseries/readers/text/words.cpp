@@ -17,6 +17,13 @@ std::vector<std::string> words(std::string_view text) {
     }
 }
 
+std::string oneLine(std::string_view text) {
+    std::string line(text);
+    std::ranges::replace_if(line, [](char c) { return c >= '\0' && c < ' '; }, ' ');
+    line.resize(line.find_last_not_of(' ') + 1);
+    return line;
+}
+
 std::string lower(std::string_view text) {
     std::string result(text);
     for (char& c : result)

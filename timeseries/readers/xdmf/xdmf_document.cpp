@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "timeseries/readers/reader.h"
+#include "timeseries/readers/text/words.h"
 
 namespace timeseries {
 namespace {
@@ -39,12 +40,9 @@ bool isNamed(const xmlNode* node, std::string_view name) {
 
 // Texts come from the file, or from the library, which cites it: whatever they hold, one line that
 // can be read.
-std::string oneLine(std::string_view what) {
+std::string told(std::string_view what) {
     constexpr std::size_t kLongest = 500;
-    std::string line(what.substr(0, kLongest));
-    for (char& c : line)
-        if (c >= '\0' && c < ' ') c = ' ';
-    return line;
+    return oneLine(what.substr(0, kLongest));
 }
 
 std::string textOf(const std::filesystem::path& path) {
@@ -103,7 +101,7 @@ XdmfDocument::XdmfDocument(const std::filesystem::path& path) : path_(path) {
     if (!document_) {
         const xmlError* const error = xmlCtxtGetLastError(parser.get());
         const std::string why =
-            error && error->message ? oneLine(trimmed(error->message)) : "it is not";
+            error && error->message ? told(trimmed(error->message)) : "it is not";
         throw FileError(fmt::format("{}: line {}: expected well-formed XML, but: {}", path.string(),
                                     error ? error->line : 1, why));
     }
@@ -121,7 +119,7 @@ XdmfElement XdmfDocument::root() const {
 
 void XdmfDocument::fail(const XdmfElement& at, std::string_view what) const {
     throw FileError(
-        fmt::format("{}: line {}: {}", path_.string(), at.exists() ? at.line() : 1, oneLine(what)));
+        fmt::format("{}: line {}: {}", path_.string(), at.exists() ? at.line() : 1, told(what)));
 }
 
 std::vector<_xmlNode*> XdmfDocument::found(const XdmfElement& by,
