@@ -93,8 +93,8 @@ void ExplorerOptions::applyLayers(const CLI::App& app, Explorer& e) const {
     }
     if (styles > e.layers.size())
         throw ChoiceError(
-            fmt::format("{} colours, opacities or models for {} layers: give a --range for each",
-                        styles, e.layers.size()));
+            fmt::format("{} colours, opacities or models for {} layer{}: give a --range for each",
+                        styles, e.layers.size(), e.layers.size() == 1 ? "" : "s"));
     for (std::size_t i = 0; i < colors.size(); ++i) e.layers[i].color = colors[i];
     for (std::size_t i = 0; i < opacities_.size(); ++i)
         e.layers[i].opacity = parseNumber("opacity", opacities_[i]);
@@ -103,8 +103,8 @@ void ExplorerOptions::applyLayers(const CLI::App& app, Explorer& e) const {
     for (std::size_t i = 0; i < models; ++i) e.layers[i].model = parseLayerModel(models_[i + 1]);
     for (const std::size_t number : hidden_) {
         if (number > e.layers.size())
-            throw ChoiceError(
-                fmt::format("--hide {} of {} layers: 1 is the first", number, e.layers.size()));
+            throw ChoiceError(fmt::format("--hide {} of {} layer{}: 1 is the first", number,
+                                          e.layers.size(), e.layers.size() == 1 ? "" : "s"));
         e.layers[number - 1].visible = false;
     }
 }

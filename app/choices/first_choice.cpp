@@ -102,6 +102,10 @@ LayerChoice choiceOf(const std::vector<double>& sorted) {
     LayerChoice layer{.ranges = RangeSet::everything(), .color = {}, .opacity = {}};
     if (sorted.empty() || sorted.front() == sorted.back()) return layer;
     const double lo = sorted.front(), hi = sorted.back();
+    // Doubles tell 64-bit integers so little apart that a bound may lie beyond all of them.
+    constexpr double kLeastApart = 1e-3;
+    const double most = std::max(std::abs(lo), std::abs(hi));
+    if (std::nextafter(most, timeseries::kInfinity) - most > kLeastApart * (hi - lo)) return layer;
     const double middle = background(sorted);
     // How far the values reach, the outermost thousandth aside.
     double above = quantile(sorted, 0.999) - middle, below = middle - quantile(sorted, 0.001);

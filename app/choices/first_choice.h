@@ -15,7 +15,8 @@ using Quantiles = std::vector<std::vector<double>>;
 // is the tenth of the points that lies farthest beyond it: above, below, or on both sides where the
 // values reach about as far to either. Bounds are rounded to three digits; the outer end is open. A
 // value far from all others that a fifth of the points have, and that is not the background, is
-// left out: land, say. A constant field selects everything; no points, nothing but the whole range.
+// left out: land, say. A constant field selects everything, and so does one whose values doubles
+// hardly tell apart; no points, nothing but the whole range.
 LayerChoice firstChoice(const Quantiles& sampled);
 
 // Opacity at which a lump of so many cells, as thick as wide, is seen through but plainly there:

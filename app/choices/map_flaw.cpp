@@ -12,6 +12,12 @@ std::string globeFlaw(const timeseries::Grid& grid) {
             const auto& [name, units, coordinates, down] = grid.axes()[axis];
             return units.empty() ? name : fmt::format("{} ({})", name, units);
         };
+        if (render::saysDegrees(grid)) {
+            const auto [least, most] = grid.ends(0);
+            return fmt::format(
+                "a globe is drawn of longitudes that go around it once, not from {:.7g} to {:.7g}",
+                least, most);
+        }
         return fmt::format(
             "a globe is drawn of longitudes and latitudes in degrees, not of {} and {}", told(0),
             told(1));

@@ -38,7 +38,7 @@ struct CountText {
 
 void addCount(CLI::App& app, CountText& into) {
     app.add_option("FILE", into.files, kFileHelp)->check(notEmpty())->required();
-    app.add_option("--variable", into.variable, choiceOf("--variable").help);
+    app.add_option("--variable", into.variable, choiceOf("--variable").help)->check(notEmpty());
     app.add_option("--range", into.ranges, kRangeHelp)->required()->allow_extra_args(false);
     app.add_option("--keep", into.keep, choiceOf("--keep").help);
     app.add_option("--step", into.steps,

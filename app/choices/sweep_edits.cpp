@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "app/choices/decimals.h"
@@ -43,6 +44,18 @@ Beginning beginningOf(const timeseries::SweepSettings& settings, const SortedSte
     return inside.isSeen ? inside : anywhere.isSeen ? anywhere : fewest;
 }
 
+// Of 64-bit integers as one of them, so that what is swept is exact.
+timeseries::Number wholeOf(double value, timeseries::ValueType type) {
+    const bool isSigned = type == timeseries::ValueType::I64;
+    if (!isSigned && type != timeseries::ValueType::U64) return value;
+    const auto as = [&]<typename T>(T) -> timeseries::Number {
+        constexpr T least = std::numeric_limits<T>::min(), most = std::numeric_limits<T>::max();
+        if (!(value > static_cast<double>(least))) return least;
+        return value < static_cast<double>(most) ? static_cast<T>(value) : most;
+    };
+    return isSigned ? as(std::int64_t{}) : as(std::uint64_t{});
+}
+
 RangeSet visibleRanges(const Explorer& e) {
     std::vector<RangeSet> visible;
     for (const LayerChoice& layer : e.layers)
@@ -61,7 +74,8 @@ void setSweep(Explorer& e, timeseries::SweepSettings settings) {
 void startSweep(Explorer& e, const Extent& values, const SortedStep& step, bool timePlays) {
     const double width = values.hi - values.lo;
     timeseries::SweepSettings sweep;
-    sweep.animation = RangeSet(std::vector{timeseries::Range{{values.lo}, {values.hi}}});
+    sweep.animation = RangeSet(std::vector{
+        timeseries::Range{{wholeOf(values.lo, step.type())}, {wholeOf(values.hi, step.type())}}});
     const RangeSet wanted = visibleRanges(e);
     Beginning begin;
     // Half as wide where a window always holds too many points, as between far outliers.

@@ -107,6 +107,7 @@ MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSourc
     constexpr std::size_t kAsked = 9;
     const std::size_t middle = frames.size() / 2;
     MiddleError error{{}, {}, {}, frames[middle].file, rungs.front()};
+    bool isNothing = false;
     // Those before it and behind it in turn.
     for (std::size_t k = 0, asked = 0; k <= 2 * middle + 1 && asked < kAsked; ++k) {
         const std::size_t i = k % 2 == 1 ? middle - (k + 1) / 2 : middle + k / 2;
@@ -122,12 +123,20 @@ MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSourc
             const DepthErrors errors = errorsOf(e, frame, *step, rungs);
             const RungError* const drawn =
                 errors.rungs.empty() ? nullptr : errors.find(*errors.cheapest(within));
-            if (!drawn || std::isnan(drawn->depth)) continue;
+            if (!drawn || std::isnan(drawn->depth)) {
+                isNothing = isNothing || drawn;
+                continue;
+            }
             return {drawn->depth, errorText(*drawn, errors.ordering), {}, frame.file, drawn->rung};
         } catch (const timeseries::FileError&) {
             // What cannot be read is told when its turn comes, after the pictures before it.
         }
     }
+    // As of the one point that has a field's greatest value.
+    if (isNothing)
+        error.whyNone =
+            "nothing between the points lies in the ranges, so nothing is drawn; --model points "
+            "draws the points";
     return error;
 }
 
@@ -290,7 +299,9 @@ int renderHeadless(const RenderOptions& options) {
     if (options.byPointsAlone)
         say("  note: drawn by points, for --splatter exact draws no cells\n");
     tellStyle(e, dataset.variable);
-    if (!error.text.empty() || !error.whyNone.empty()) tellError(error, frames, e.stereo.mode);
+    const bool isSaid = empty > 0 || !whyNothing(e).empty();
+    if (!error.text.empty() || (!error.whyNone.empty() && !isSaid))
+        tellError(error, frames, e.stereo.mode);
     if (options.within)
         say("  drawn: {}{}\n", error.whyNone.empty() ? rungText(error.rung) : "all",
             error.depth && *error.depth > *options.within ? ", the truest there is" : "");

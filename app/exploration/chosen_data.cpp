@@ -23,15 +23,15 @@ Steps sample(StepSource& source, const std::vector<std::size_t>& steps) {
     return sampled;
 }
 
-std::optional<Extent> extentOfAll(const Explorer& e, StepSource& source,
-                                  const std::vector<std::size_t>& steps) {
+std::optional<timeseries::Range> endsOfAll(const Explorer& e, StepSource& source,
+                                           const std::vector<std::size_t>& steps) {
     Progress progress("step", steps.size());
-    std::optional<Extent> all;
+    std::optional<timeseries::Range> all;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         progress.at(i);
         const std::size_t next = steps[std::min(i + 1, steps.size() - 1)];
         try {
-            all = around(all, extentOf(e, *source.get(steps[i], next)));
+            all = around(all, endsOf(e, *source.get(steps[i], next)));
         } catch (const timeseries::FileError&) {
             // Told when its turn comes.
         }
@@ -65,7 +65,7 @@ ChosenData openChosen(const Explorer& choices) {
     if (mayMove && e.clip && steps.size() == 1)
         expectClip(source->get(steps.front(), steps.front())->grid());
     if (sweepsOn(e))
-        if (const auto all = extentOfAll(e, *source, steps)) endSweeps(e, *all);
+        if (const auto all = endsOfAll(e, *source, steps)) endSweeps(e, *all);
     if (needsSamples(e)) e = resolved(e, sample(*source, steps));
     return {std::move(dataset), std::move(e), std::move(steps), std::move(source)};
 }

@@ -172,8 +172,29 @@ bool isOfCells(const std::string& note) {
     return note == kInterpolated || note.ends_with(kByPointsAlone) || note.ends_with(kInfinite);
 }
 
+// A map's ends are doubles, and so are the values that stand between them: 64-bit integers are told
+// less apart.
+std::string coarseColors(const render::Scene& scene, timeseries::ValueType type) {
+    constexpr double kShades = 64;
+    if (type != timeseries::ValueType::I64 && type != timeseries::ValueType::U64) return "";
+    double coarsest = 0;
+    for (const render::Layer& layer : scene.layers)
+        if (const auto* map = std::get_if<render::ByValue>(&layer.style.color)) {
+            const double most = std::max(std::abs(map->lo), std::abs(map->hi));
+            const double apart = most - std::nextafter(most, 0.0);
+            if (apart * kShades > 2 * map->halfWidth()) coarsest = std::max(coarsest, apart);
+        }
+    return coarsest > 1
+               ? fmt::format("colours tell values apart that differ by {:g} or more", coarsest)
+               : "";
+}
+
 std::string whyNothing(const Explorer& e) {
-    if (std::ranges::any_of(e.layers, &LayerChoice::visible)) return "";
+    if (std::ranges::any_of(e.layers, &LayerChoice::visible)) {
+        const bool isClear = std::ranges::none_of(
+            e.layers, [](const LayerChoice& layer) { return layer.visible && layer.opacity != 0; });
+        return isClear ? "nothing is seen: the opacity of every layer is 0" : "";
+    }
     return e.layers.empty() ? "nothing is drawn: there is no layer"
                             : "nothing is drawn: every layer is hidden";
 }
@@ -215,6 +236,8 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
         legend.emptiness = fmt::format("all {} points of this step are missing",
                                        withCommas(scene.step.statistics().missing));
     legend.notes = variable.notes;
+    if (std::string coarse = coarseColors(scene, variable.type); !coarse.empty())
+        legend.notes.push_back(std::move(coarse));
     if (std::string why = whyNothing(e); !why.empty()) legend.notes.push_back(std::move(why));
     if (const std::string stretch = render::stretchText(scene.step.grid(), scene.placed);
         !stretch.empty())

@@ -151,9 +151,11 @@ std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick) {
         delta > 0 ? delta / 50 : std::max(1e-6 * std::abs(contour), kLeastResolution);
     const int decimals = static_cast<int>(std::ceil(-std::log10(resolution)));
     const bool isPlain = decimals <= 9 && std::abs(contour) < 1e9;
+    const timeseries::Number exact = sweep.exactContour(tick);
     const std::string centre =
-        isPlain ? fmt::format("{:.{}f}", roundedTo(contour, resolution), std::max(0, decimals))
-                : timeseries::toText(roundedTo(contour, resolution));
+        !std::holds_alternative<double>(exact) ? timeseries::toText(exact)
+        : isPlain ? fmt::format("{:.{}f}", roundedTo(contour, resolution), std::max(0, decimals))
+                  : timeseries::toText(roundedTo(contour, resolution));
     return render::withMinusSigns(centre) + " ± " + timeseries::toText(delta);
 }
 std::string clipLabel(const ClipBox& clip, const timeseries::Grid& grid) {

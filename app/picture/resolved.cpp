@@ -28,10 +28,14 @@ Quantiles quantilesOf(const Steps& sampled) {
 }
 
 // {0, 0} where there are none.
-Extent extentOf(const Explorer& e, const Steps& sampled) {
-    std::optional<Extent> all;
-    for (const auto& [index, step] : sampled) all = around(all, extentOf(e, *step));
-    return all.value_or(Extent{});
+Range endsOf(const Explorer& e, const Steps& sampled) {
+    std::optional<Range> all;
+    for (const auto& [index, step] : sampled) all = around(all, endsOf(e, *step));
+    return all.value_or(Range{{0.0}, {0.0}});
+}
+
+Extent extentOf(const Range& ends) {
+    return {timeseries::toDouble(ends.lo.value), timeseries::toDouble(ends.hi.value)};
 }
 
 std::uint64_t mostSelected(const RangeSet& ranges, const Steps& sampled) {
@@ -73,17 +77,18 @@ void style(LayerChoice& layer, const Extent& ends, std::size_t place, std::size_
 }
 
 // Through finite values alone. Throws ChoiceError where that leaves none.
-RangeSet finitePart(const RangeSet& animation, const Extent& data) {
+RangeSet finitePart(const RangeSet& animation, const Range& data) {
     std::vector<Range> finite;
     for (Range range : animation.ranges()) {
-        if (!std::isfinite(timeseries::toDouble(range.lo.value))) range.lo = {data.lo};
-        if (!std::isfinite(timeseries::toDouble(range.hi.value))) range.hi = {data.hi};
+        if (!std::isfinite(timeseries::toDouble(range.lo.value))) range.lo = data.lo;
+        if (!std::isfinite(timeseries::toDouble(range.hi.value))) range.hi = data.hi;
         finite.push_back(range);
     }
     RangeSet within(std::move(finite));
     if (within.empty())
         throw ChoiceError(fmt::format("sweep {} reaches none of the data's values, {} to {}",
-                                      animation.text(), data.lo, data.hi));
+                                      animation.text(), timeseries::toText(data.lo.value),
+                                      timeseries::toText(data.hi.value)));
     return within;
 }
 
@@ -146,20 +151,26 @@ Extent finiteEnds(const RangeSet& ranges, const Extent& data) {
     return data;
 }
 
-std::optional<Extent> around(const std::optional<Extent>& a, const std::optional<Extent>& b) {
+std::optional<Range> around(const std::optional<Range>& a, const std::optional<Range>& b) {
     if (!a || !b) return a ? a : b;
-    return Extent{std::min(a->lo, b->lo), std::max(a->hi, b->hi)};
+    const auto less = [](const timeseries::Bound& one, const timeseries::Bound& other) {
+        return timeseries::compare(one.value, other.value) < 0;
+    };
+    return Range{std::min(a->lo, b->lo, less), std::max(a->hi, b->hi, less)};
+}
+
+std::optional<Range> endsOf(const Explorer& e, const timeseries::SortedStep& step) {
+    const timeseries::Run kept = step.finite();
+    if (e.keep && kept.count == 0) return std::nullopt;
+    if (e.keep) return Range{{step.value(kept.first)}, {step.value(kept.first + kept.count - 1)}};
+    const auto& whole = step.statistics();
+    if (std::isnan(timeseries::toDouble(whole.finiteMin))) return std::nullopt;
+    return Range{{whole.finiteMin}, {whole.finiteMax}};
 }
 
 std::optional<Extent> extentOf(const Explorer& e, const timeseries::SortedStep& step) {
-    const auto& whole = step.statistics();
-    const std::vector<double> ends = e.keep ? step.quantiles(2)
-                                            : std::vector{timeseries::toDouble(whole.finiteMin),
-                                                          timeseries::toDouble(whole.finiteMax)};
-    std::optional<Extent> all;
-    for (const double end : ends)
-        if (!std::isnan(end)) all = around(all, Extent{end, end});
-    return all;
+    const auto ends = endsOf(e, step);
+    return ends ? std::optional(extentOf(*ends)) : std::nullopt;
 }
 
 bool sweepsOn(const Explorer& e) {
@@ -168,7 +179,7 @@ bool sweepsOn(const Explorer& e) {
     });
 }
 
-void endSweeps(Explorer& e, const Extent& data) {
+void endSweeps(Explorer& e, const Range& data) {
     for (LayerChoice& layer : e.layers)
         if (layer.motion) layer.motion->animation = finitePart(layer.motion->animation, data);
 }
@@ -194,10 +205,11 @@ RangeSet rangesNeeded(const Explorer& e) {
 
 Explorer resolved(const Explorer& explorer, const Steps& sampled) {
     Explorer e = explorer;
-    const Extent data = extentOf(e, sampled);
+    const Range ends = endsOf(e, sampled);
+    const Extent data = extentOf(ends);
     if (e.layers.empty() && !e.noLayers) e.layers = classLayers(sampled);
     if (e.layers.empty() && !e.noLayers) e.layers.push_back({});
-    endSweeps(e, data);
+    endSweeps(e, ends);
     for (std::size_t place = 0; place < e.layers.size(); ++place) {
         LayerChoice& layer = e.layers[place];
         if (!layer.motion && layer.ranges.empty()) chooseFirst(layer, sampled);

@@ -21,12 +21,16 @@ bool needsSamples(const Explorer& explorer);
 // ones' too; everything where some are left to choose, or move.
 timeseries::RangeSet rangesNeeded(const Explorer& explorer);
 // Whether sweeps go on as far as the data do; and where that is: from the least to the greatest of
-// the finite values of these steps that may be shown. None where there are none.
+// the finite values of these steps that may be shown, as the data have them. None where there are
+// none.
 bool sweepsOn(const Explorer& explorer);
+std::optional<timeseries::Range> endsOf(const Explorer& explorer,
+                                        const timeseries::SortedStep& step);
+std::optional<timeseries::Range> around(const std::optional<timeseries::Range>& a,
+                                        const std::optional<timeseries::Range>& b);
 std::optional<Extent> extentOf(const Explorer& explorer, const timeseries::SortedStep& step);
-std::optional<Extent> around(const std::optional<Extent>& a, const std::optional<Extent>& b);
 // Throws ChoiceError where sweeps reach none of these.
-void endSweeps(Explorer& explorer, const Extent& data);
+void endSweeps(Explorer& explorer, const timeseries::Range& data);
 // The choices with nothing left open, hidden layers' too (showing one later changes no other's
 // colour), from a few steps of the series. A resolved Explorer draws the
 // same picture again whatever is sampled. Throws ChoiceError when an unbounded sweep does not reach

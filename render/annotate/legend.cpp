@@ -167,7 +167,9 @@ class Writer {
         const auto notes = noteLines(detail);
         const float bottom = size_.y - margin_ - line_ * static_cast<float>(notes.size());
         if (!detail.layers && !legend_.layers.empty() && y + line_ < bottom)
-            text(label_, fmt::format("{} layers: no room for their legend", legend_.layers.size()),
+            text(label_,
+                 fmt::format("{} layer{}: no room for the legend", legend_.layers.size(),
+                             legend_.layers.size() == 1 ? "" : "s"),
                  {margin_, y}, wide(), kLegendQuiet);
         y = bottom;
         for (const std::string& line : notes) {

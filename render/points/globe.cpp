@@ -72,11 +72,14 @@ glm::dmat3 directionsOf(const Globe::Angle& lon, const Globe::Angle& lat) {
 
 }  // namespace
 
-bool isGeographic(const Grid& grid) {
+bool saysDegrees(const Grid& grid) {
     const auto& axes = grid.axes();
-    if (!grid.frame().aligned() || !isDegrees(axes[0], "east", "longitude") ||
-        !isDegrees(axes[1], "north", "latitude"))
-        return false;
+    return grid.frame().aligned() && isDegrees(axes[0], "east", "longitude") &&
+           isDegrees(axes[1], "north", "latitude");
+}
+
+bool isGeographic(const Grid& grid) {
+    if (!saysDegrees(grid)) return false;
     const auto x = grid.ends(0);
     return x.most - x.least <= kTurn + 1 && std::max(std::abs(x.least), std::abs(x.most)) <= 720;
 }

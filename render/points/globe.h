@@ -20,6 +20,8 @@ inline constexpr double kPerDegree = std::numbers::pi / 180;  // in radians
 // Whether the first two axes are longitude and latitude in degrees (CF 1.10, sections 4.1 and 4.2),
 // at most once round.
 bool isGeographic(const timeseries::Grid& grid);
+// Whether that is what they are, however often they go round.
+bool saysDegrees(const timeseries::Grid& grid);
 // Whether a point's longitude and latitude are known: so, or beside other axes (Grid::earth()).
 bool isOnEarth(const timeseries::Grid& grid);
 // In degrees, as onEarth() tells them. REQUIRES: isOnEarth(grid).

@@ -228,6 +228,21 @@ TEST(FirstChoice, AConstantFieldIsSelectedWhole) {
     }
 }
 
+// Their quantiles are doubles, 128 and 2048 apart: a bound may lie beyond all values.
+TEST(FirstChoice, IntegersThatDoublesHardlyTellApartAreSelectedWhole) {
+    const auto of = [](auto first) {
+        std::vector<decltype(first)> values(8000);
+        for (auto& value : values) value = first++;
+        auto grid = std::make_shared<const timeseries::Grid>(
+            std::array{tests::axis(values.size()), tests::axis(1), tests::axis(1)});
+        return tests::sorted({std::move(grid), std::move(values), {}});
+    };
+    for (const SortedStep& step : {of((std::int64_t{1} << 60) - 1), of(~std::uint64_t{0} - 7999)})
+        EXPECT_EQ(step.count(choiceFor(step).ranges), 8000u);
+    const SortedStep few = of(std::int64_t{1} << 40);
+    EXPECT_NEAR(shareSelected(few, choiceFor(few)), 0.1, 0.02);
+}
+
 TEST(FirstChoice, WithoutPointsItIsTheWholeRange) {
     EXPECT_EQ(firstChoice({}).ranges, timeseries::RangeSet::everything());
     EXPECT_EQ(firstChoice({{}, {}}).ranges, timeseries::RangeSet::everything());

@@ -30,6 +30,9 @@ TEST(GlobeFlaw, SaysWhatTheAxesAreInstead) {
     EXPECT_EQ(flaw(measuredAxis("lon", "degrees_east", 0, 9, 10),
                    measuredAxis("lat", "degrees_north", 0, 100, 11)),
               "a globe is drawn of latitudes from -90 to 90, not from 0 to 100");
+    EXPECT_EQ(flaw(measuredAxis("lon", "degrees_east", 0, 710, 72),
+                   measuredAxis("lat", "degrees_north", 0, 90, 10)),
+              "a globe is drawn of longitudes that go around it once, not from 0 to 710");
     // 2^13 x 2^13 x 3 points.
     EXPECT_EQ(flaw(measuredAxis("lon", "degrees_east", 0, 359, 1 << 13),
                    measuredAxis("lat", "degrees_north", -89, 89, 1 << 13)),

@@ -130,7 +130,7 @@ TEST(Options, CellsAreDrawnUnlessSplatsAreChosen) {
     EXPECT_EQ(explorer({"--splat-size", "2", "--model", "cells"}).model, Model::Cells);
     EXPECT_THAT(renderRefused({"--range", "1:2", "--model", "auto", "--model", "points", "--model",
                                "points"}),
-                testing::HasSubstr("2 colours, opacities or models for 1 layers"));
+                testing::HasSubstr("2 colours, opacities or models for 1 layer:"));
     EXPECT_EQ(explorer({"--model", "auto", "--model", "points"}).layers.at(0).model, Model::Points);
     // The truth of points.
     EXPECT_EQ(render({"--splatter", "exact"}).explorer.model, Model::Points);

@@ -274,5 +274,31 @@ TEST_F(PictureOfARamp, TheFirstChoiceIsInsideWhatWasKept) {
     }
 }
 
+// Doubles there are 256 apart.
+TEST(ResolvedSweep, OfIntegersBeyondDoublesEndsAtTheirOwnEnds) {
+    const std::int64_t first = (std::int64_t{1} << 60) + 1;
+    std::vector<std::int64_t> values(1000);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = first + std::int64_t(i);
+    const auto step =
+        std::make_shared<const SortedStep>(tests::sorted({tests::cube(10), values, {}}));
+    for (const bool keeps : {false, true}) {
+        Explorer e;
+        if (keeps) e.keep = timeseries::RangeSet::everything();
+        setSweep(e, timeseries::SweepSettings{.animation = timeseries::RangeSet::everything(),
+                                              .delta = 10,
+                                              .timerSteps = 1000,
+                                              .path = timeseries::SweepPath::Loop});
+        e = resolved(e, {{0, step}});
+        const timeseries::ValueSweep sweep(*sweepOf(e));
+        for (std::int64_t tick = 0; tick < 1000; ++tick) {
+            const std::int64_t below = std::min<std::int64_t>(tick, 10),
+                               above = std::min<std::int64_t>(999 - tick, 10);
+            ASSERT_EQ(step->count(timeseries::RangeSet(std::vector{sweep.window(tick)})),
+                      std::uint64_t(below + above + 1))
+                << tick;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace app

@@ -49,29 +49,36 @@ FINEST = 128  # samples a cell at which VTK draws the fire's shell closed
 AZIMUTH, ELEVATION = 30, 20
 HALF_ANGLE = 15  # degrees, of app/choices/camera.cpp
 GROUND = "#0d1117"  # of isochron's pictures
-# Name: file, step, title, range, distance in half diagonals, colour, opacity of a cell's length, what is seen.
+# Name: file, step, title, range, distance in half diagonals, colour, opacity of a cell's length, what is seen. The
+# ocean's levels are uneven: VTK's ray caster takes no such grid.
 SCENES = {
     "fire_shell": (FIRE, 14, "Pool fire, 845 to 855 K", (845, 855), 2.4, "#ffb15c", 0.9,
                    "the shell is closed by isochron; by VTK it is full of holes, except where it is seen along its wall"),
     "fire": (FIRE, 14, "Pool fire, 600 to 1000 K", (600, 1000), 3, "#e0562b", 0.2,
              "the same to the eye; faint stripes on VTK's column; the foot reaches lower by isochron (below)"),
+    "fire_low": (FIRE, 14, "Pool fire, 320 to 400 K", (320, 400), 3, "#5b9bd5", 0.2, "the same to the eye"),
+    "fire_lit": (FIRE, 14, "Pool fire, 600 to 1000 K, lit", (600, 1000), 3, "#e0562b", 0.9, "one surface, the same folds and gleams; darker by VTK"),
+    "hurricane": ("isabel_30_raw_f64.vti", None, "Hurricane, 39.5 to 40.5 m/s", (39.5, 40.5), 1.6, "#8fd19e", 0.9,
+                  "the wall of the eye is closed by isochron, grainy by VTK"),
     "tooth": ("tooth_u8.nrrd", None, "Tooth, 80 to 90", (80, 90), 3.9, "#e9dcc0", 0.05,
               "the same to the eye, noise and all"),
     "aneurism": ("aneurism_256_u8.vti", None, "Aneurism, 100 to 120", (100, 120), 2.6, "#e86a6a", 0.9,
                  "the same vessels; their walls are grainy by VTK and smooth by isochron"),
 }
+# Lit by each program's own light from the camera: their gradients and gleams differ.
+LIT = {"fire_lit"}
 
 
 class Scene:
     def __init__(self, name, folder):
         file, self.step, self.title, self.range, self.distance, self.color, self.opacity, self.seen = SCENES[name]
-        self.name, self.file = name, folder / file
+        self.name, self.file, self.is_lit = name, folder / file, name in LIT
 
     def options(self):
         """What isochron is told. The distance is given, so that no picture depends on how it fits a box."""
         step = [] if self.step is None else ["--step", str(self.step)]
         return [str(self.file), *step, "--range", "{}:{}".format(*self.range), "--color", self.color,
-                "--opacity", str(self.opacity), "--opacity-per", "length", "--light", "off", "--threads", str(THREADS),
+                "--opacity", str(self.opacity), "--opacity-per", "length", "--light", "full" if self.is_lit else "off", "--threads", str(THREADS),
                 "--view", f"{AZIMUTH},{ELEVATION},{self.distance}", "--size", f"{PIXELS}x{PIXELS}"]
 
 
@@ -88,7 +95,8 @@ def isochron_times(scene):
     """Seconds of a frame, and before the first; by depth where it was drawn so, which a single colour needs not."""
     figures = json.loads(said(PROGRAM, "measure", *scene.options(), "--frames", str(FRAMES), "--views", "1",
                                "--rays", "1", "--json"))
-    cells = sorted((m for m in figures["modes"] if m["mode"] == "cells"), key=lambda m: m["order"])[0]
+    mode = "lit cells" if scene.is_lit else "cells"
+    cells = sorted((m for m in figures["modes"] if m["mode"] == mode), key=lambda m: m["order"])[0]
     return cells["frame"], cells["before"]
 
 
@@ -152,7 +160,7 @@ def volume(scene, image, rounding, mapper):
     for value, y in ((lo - out, 0), (lo, scene.opacity), (hi, scene.opacity), (hi + out, 0)):
         opacity.AddPoint(value, y)
     white = vtkColorTransferFunction()
-    white.AddRGBPoint(lo, 1, 1, 1)
+    white.AddRGBPoint(lo, *(channels(scene.color) if scene.is_lit else (1, 1, 1)))
     mapper.SetInputData(image)
     mapper.SetNumberOfThreads(THREADS)
     drawn = vtkVolume()
@@ -162,7 +170,7 @@ def volume(scene, image, rounding, mapper):
     look.SetScalarOpacity(opacity)
     look.SetScalarOpacityUnitDistance(unit_length(image))
     look.SetInterpolationTypeToLinear()
-    look.ShadeOff()
+    look.SetShade(scene.is_lit)
     return drawn
 
 
@@ -183,6 +191,8 @@ def window_of(scene, drawn):
     window.SetMultiSamples(0)
     window.SetSize(PIXELS, PIXELS)
     window.AddRenderer(renderer)
+    if scene.is_lit:
+        renderer.SetBackground(*channels(GROUND))
     renderer.AddVolume(drawn)
     look_at(scene, renderer.GetActiveCamera())
     return window, renderer
@@ -217,12 +227,17 @@ def linear(encoded):
     return encoded / 12.92 if encoded <= 0.04045 else ((encoded + 0.055) / 1.055)**2.4
 
 
+def channels(color):
+    return [int(color[i:i + 2], 16) / 255 for i in (1, 3, 5)]
+
+
 def light(color):
-    return [linear(int(color[i:i + 2], 16) / 255) for i in (1, 3, 5)]
+    return [linear(channel) for channel in channels(color)]
 
 
 def encoded(scene, window):
-    """White on black is opacity: of so much the colour's light on isochron's ground, encoded as isochron encodes it."""
+    """White on black is opacity: of so much the colour's light on isochron's ground, encoded as isochron encodes it.
+    What is lit stays as VTK blends it, in encoded colours."""
     ends = list(zip(light(GROUND), light(scene.color)))
     shades = vtkLookupTable()
     shades.SetNumberOfTableValues(256)
@@ -233,6 +248,8 @@ def encoded(scene, window):
     grab.SetInput(window)
     grab.ReadFrontBufferOff()
     grab.Update()
+    if scene.is_lit:
+        return grab.GetOutput()
     red.SetInputConnection(grab.GetOutputPort())
     red.SetComponents(0)
     mapped.SetInputConnection(red.GetOutputPort())
@@ -348,7 +365,8 @@ shell has holes by VTK, whose eight samples a cell step over it; isochron takes 
 A frame's time is the median of {FRAMES}; isochron's by `isochron measure`, without axes and legend, VTK's of `Render()`. What only a
 first frame needs is left out: isochron's index of cells and selection took {first['isochron']}, VTK's default {first['default']}.{lost}
 
-Both take the same opacity for the length of a cell (`--opacity-per length`, `ScalarOpacityUnitDistance`), without light (`--light off`).
+Both take the same opacity for the length of a cell (`--opacity-per length`, `ScalarOpacityUnitDistance`), without light (`--light off`)
+but where it is said: `--light full`, and `ShadeOn` as VTK sets it, each from the camera; there VTK blends encoded colours, isochron light.
 VTK's opacity is a step at each end of the range, as sharp as its tables: 32,768 entries over all values of floats, 256 for bytes.
 *Default* is as `vtkSmartVolumeMapper` sets this mapper, two samples a cell and more in small volumes, of the values as read. *Fine*, which
 the pictures show, is eight samples a cell; bytes are made floats for it (the tooth is paler without), and ranges of whole numbers

@@ -221,7 +221,7 @@ TEST(Legend, SaysThatItsLayersHaveNoRoom) {
         const glm::ivec2 size(500, height);
         const FlatMesh mesh = legendMesh(legend, fontFor(size), size);
         EXPECT_NE(find(mesh, size, "600:1600 K").has_value(),
-                  find(mesh, size, "8 layers: no room for their legend").has_value())
+                  find(mesh, size, "8 layers: no room for the legend").has_value())
             << height;
     }
 }

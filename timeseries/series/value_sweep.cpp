@@ -51,13 +51,27 @@ std::vector<Interval<double>> finiteIntervals(const RangeSet& animation) {
 
 double halfLength(const Interval<double>& r) { return r.hi / 2 - r.lo / 2; }
 
+// What no type of 64 bits has is beyond all of them as a double, too.
+Number numberOfWhole(Wide value) {
+    if (value < std::numeric_limits<std::int64_t>::min()) return static_cast<double>(value);
+    if (value <= std::numeric_limits<std::int64_t>::max()) return static_cast<std::int64_t>(value);
+    if (value <= std::numeric_limits<std::uint64_t>::max())
+        return static_cast<std::uint64_t>(value);
+    return static_cast<double>(value);
+}
+
 }  // namespace
 
 ValueSweep::ValueSweep(SweepSettings settings, SweepPosition position)
     : settings_(std::move(settings)) {
     check(settings_);
     ranges_ = finiteIntervals(settings_.animation);
-    for (const Interval<double>& r : ranges_) halfLength_ += halfLength(r);
+    wholes_ = wholesOf(settings_.animation);
+    for (const Interval<Wide>& r : wholes_)
+        halfLengths_.push_back(0.5 * static_cast<double>(r.hi - r.lo));
+    if (wholes_.empty())
+        for (const Interval<double>& r : ranges_) halfLengths_.push_back(halfLength(r));
+    for (const double each : halfLengths_) halfLength_ += each;
     ticks_ = ceilDiv(settings_.timerSteps, settings_.step);
     const double ns = 1e9 / settings_.frequency;  // +inf for 0
     if (ns <= static_cast<double>(kLongestSweep))
@@ -127,29 +141,66 @@ double ValueSweep::tablePosition(std::int64_t tick) const {
     return s * s;
 }
 
-double ValueSweep::contour(std::int64_t tick) const {
+ValueSweep::Place ValueSweep::placeOf(std::int64_t tick) const {
     const double fraction = tablePosition(tick);
     if (!(halfLength_ > 0)) {
-        const auto count = static_cast<double>(ranges_.size());
+        const auto count = static_cast<double>(halfLengths_.size());
         const auto which = static_cast<std::size_t>(fraction * count);
-        return ranges_[std::min(which, ranges_.size() - 1)].lo;
+        return {std::min(which, halfLengths_.size() - 1), 0};
     }
     double left = fraction * halfLength_;
-    double end = 0;  // where a rest that rounding leaves beyond the last range belongs
-    for (const Interval<double>& r : ranges_) {
-        const double length = halfLength(r);
-        if (!(length > 0)) continue;
-        if (left <= length) {
-            const double t = left / length;
-            return std::clamp(r.lo * (1 - t) + r.hi * t, r.lo, r.hi);
-        }
-        left -= length;
-        end = r.hi;
+    std::size_t last = 0;  // where a rest that rounding leaves beyond the last range belongs
+    for (std::size_t k = 0; k < halfLengths_.size(); ++k) {
+        if (!(halfLengths_[k] > 0)) continue;
+        if (left <= halfLengths_[k]) return {k, left / halfLengths_[k]};
+        left -= halfLengths_[k];
+        last = k;
     }
-    return end;
+    return {last, 1};
+}
+
+std::vector<Interval<ValueSweep::Wide>> ValueSweep::wholesOf(const RangeSet& animation) {
+    constexpr double kAllThere = 9007199254740992;  // 2^53: from there on some are no doubles
+    const auto isBeyond = [](const Bound& bound) {
+        return !std::holds_alternative<double>(bound.value) &&
+               std::abs(toDouble(bound.value)) >= kAllThere;
+    };
+    if (std::ranges::none_of(animation.ranges(),
+                             [&](const Range& r) { return isBeyond(r.lo) || isBeyond(r.hi); }))
+        return {};
+    // Of the type that has them all.
+    std::vector<Interval<Wide>> wholes;
+    const auto take = [&](const auto& intervals) {
+        for (const auto& each : intervals) wholes.push_back({each.lo, each.hi});
+    };
+    if (toDouble(animation.ranges().front().lo.value) < 0)
+        take(animation.toIntervals<std::int64_t>());
+    else
+        take(animation.toIntervals<std::uint64_t>());
+    return wholes;
+}
+
+ValueSweep::Wide ValueSweep::wholeContour(std::int64_t tick) const {
+    const auto [range, along] = placeOf(tick);
+    const Interval<Wide>& r = wholes_[range];
+    const auto way = static_cast<Wide>(std::round(along * static_cast<double>(r.hi - r.lo)));
+    return std::min(r.lo + way, r.hi);
+}
+
+Number ValueSweep::exactContour(std::int64_t tick) const {
+    if (!wholes_.empty()) return numberOfWhole(wholeContour(tick));
+    const auto [range, along] = placeOf(tick);
+    const Interval<double>& r = ranges_[range];
+    return std::clamp(r.lo * (1 - along) + r.hi * along, r.lo, r.hi);
 }
 
 Range ValueSweep::window(std::int64_t tick) const {
+    if (!wholes_.empty()) {
+        // No whole number lies between.
+        const auto delta = static_cast<Wide>(std::floor(std::min(settings_.delta, 0x1p64)));
+        const Wide c = wholeContour(tick);
+        return {{numberOfWhole(c - delta)}, {numberOfWhole(c + delta)}};
+    }
     constexpr double kMost = std::numeric_limits<double>::max();
     const double c = contour(tick);
     return {{std::max(c - settings_.delta, -kMost)}, {std::min(c + settings_.delta, kMost)}};

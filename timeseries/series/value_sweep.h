@@ -74,9 +74,13 @@ class ValueSweep {
 
     // REQUIRES for these three: 0 <= tick < ticksPerCycle().
     // Always inside the animation ranges, open ends included: never in a gap.
-    double contour(std::int64_t tick) const;
-    // [contour - delta, contour + delta], closed. Not clipped: as in the paper it reaches beyond
-    // the animation ranges, into gaps too, so that a contour at an end looks as thick as any other.
+    // Where ranges end at whole numbers that doubles tell not all apart it is one of those, rounded
+    // here alone.
+    double contour(std::int64_t tick) const { return toDouble(exactContour(tick)); }
+    Number exactContour(std::int64_t tick) const;
+    // [contour - delta, contour + delta], closed; of the exact one. Not clipped: as in the paper it
+    // reaches beyond the animation ranges, into gaps too, so that a contour at an end looks as
+    // thick as any other.
     Range window(std::int64_t tick) const;
     // In [0, 1]: how far along the way the contour is, for a colour or opacity table that follows
     // it (the paper's second calculator). Count q picks entry q of a table of timerSteps in a Loop.
@@ -94,9 +98,22 @@ class ValueSweep {
     std::chrono::nanoseconds begin(std::int64_t tick) const;  // REQUIRES: cycle_ > 0
     std::chrono::nanoseconds length(std::int64_t tick) const;
 
+    // 64-bit integers and their differences.
+    __extension__ using Wide = __int128;
+    // Which range, and how much of it lies before it, in [0, 1].
+    struct Place {
+        std::size_t range;
+        double along;
+    };
+    Place placeOf(std::int64_t tick) const;
+    Wide wholeContour(std::int64_t tick) const;  // REQUIRES: wholes_ are there
+    static std::vector<Interval<Wide>> wholesOf(const RangeSet& animation);
+
     SweepSettings settings_;
     std::vector<Interval<double>> ranges_;  // settings_.animation in doubles; never empty
-    double halfLength_ = 0;  // of all ranges; halves, so that the widest do not overflow
+    std::vector<Interval<Wide>> wholes_;    // in whole numbers, where doubles do not have them all
+    std::vector<double> halfLengths_;       // of these, or of ranges_: the widest would overflow
+    double halfLength_ = 0;                 // of all
     std::int64_t ticks_ = 1;
     std::int64_t cycle_ = 0;  // nanoseconds; 0 stands still, else >= ticks_
     SweepPosition position_;

@@ -19,7 +19,8 @@ std::vector<std::string> words(std::string_view text) {
 
 std::string oneLine(std::string_view text) {
     std::string line(text);
-    std::ranges::replace_if(line, [](char c) { return c >= '\0' && c < ' '; }, ' ');
+    std::ranges::replace_if(
+        line, [](char c) { return c >= '\0' && c < ' '; }, ' ');
     line.resize(line.find_last_not_of(' ') + 1);
     return line;
 }
