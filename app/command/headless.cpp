@@ -132,11 +132,12 @@ MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSourc
             // What cannot be read is told when its turn comes, after the pictures before it.
         }
     }
-    // As of the one point that has a field's greatest value.
+    // As of the one point that has a field's greatest value, or from where one looks elsewhere.
     if (isNothing)
-        error.whyNone =
-            "nothing between the points lies in the ranges, so nothing is drawn; --model points "
-            "draws the points";
+        error.whyNone = modelOf(e) == Model::Cells
+                            ? "nothing is seen of what lies in the ranges between the points; "
+                              "--model points draws the points"
+                            : "nothing is seen of what lies in the ranges";
     return error;
 }
 

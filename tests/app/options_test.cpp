@@ -93,6 +93,12 @@ TEST(Options, EveryCommandTakesALimitOfThreadsAndACache) {
     }
 }
 
+// As of a script whose variable is not set. Beside a session it asks for the default one.
+TEST(Options, AnEmptyNameOfAVariableIsRefusedWhereItIsCounted) {
+    EXPECT_THAT(refused({"count", "a.nc", "--range", "0:1", "--variable", ""}),
+                HasSubstr("--variable: is an empty text"));
+}
+
 TEST(Options, StepsInMemoryTakeWhatIsChosenInUnitsOfBytes) {
     const auto line = [](const char* size) {
         return std::vector<std::string>{"view", "a.nc", "--memory", size};
