@@ -166,12 +166,6 @@ void tellBar(render::LegendLayer& told, const LayerChoice& layer, const Extent& 
         told.ofOneColor = oneColorText(step, type);
 }
 
-}  // namespace
-
-bool isOfCells(const std::string& note) {
-    return note == kInterpolated || note.ends_with(kByPointsAlone) || note.ends_with(kInfinite);
-}
-
 // A map's ends are doubles, and so are the values that stand between them: 64-bit integers are told
 // less apart.
 std::string coarseColors(const render::Scene& scene, timeseries::ValueType type) {
@@ -187,6 +181,12 @@ std::string coarseColors(const render::Scene& scene, timeseries::ValueType type)
     return coarsest > 1
                ? fmt::format("colours tell values apart that differ by {:g} or more", coarsest)
                : "";
+}
+
+}  // namespace
+
+bool isOfCells(const std::string& note) {
+    return note == kInterpolated || note.ends_with(kByPointsAlone) || note.ends_with(kInfinite);
 }
 
 std::string whyNothing(const Explorer& e) {

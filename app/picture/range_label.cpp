@@ -145,13 +145,13 @@ std::string classLabel(const RangeSet& ranges, const timeseries::Variable& varia
 }
 
 std::string sweptText(const timeseries::ValueSweep& sweep, std::int64_t tick) {
-    const double delta = sweep.settings().delta, contour = sweep.contour(tick);
+    const timeseries::Number exact = sweep.exactContour(tick);
+    const double delta = sweep.settings().delta, contour = timeseries::toDouble(exact);
     // As many decimals at every tick: the text does not tremble while it plays.
     const double resolution =
         delta > 0 ? delta / 50 : std::max(1e-6 * std::abs(contour), kLeastResolution);
     const int decimals = static_cast<int>(std::ceil(-std::log10(resolution)));
     const bool isPlain = decimals <= 9 && std::abs(contour) < 1e9;
-    const timeseries::Number exact = sweep.exactContour(tick);
     const std::string centre =
         !std::holds_alternative<double>(exact) ? timeseries::toText(exact)
         : isPlain ? fmt::format("{:.{}f}", roundedTo(contour, resolution), std::max(0, decimals))
