@@ -1,4 +1,5 @@
 // isochron: parses the command line, runs one command, and turns failures into one sentence.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -34,6 +35,7 @@ struct Run {
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is one that cannot be written
     try {
         const app::Command command =
             app::parse(std::span<const char* const>(argv + 1, argv + argc));

@@ -42,7 +42,7 @@ bool isDepth(const timeseries::Axis& axis);
 // radius or take from it in proportion, exaggerated.
 class Globe {
  public:
-    static constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 26;  // 36 bytes each
+    static constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 26;  // 24 bytes each
     static constexpr double kPole = 90.01;  // degrees, beyond rounding
 
     // `stretch`: of lengths how many times as long as on the Earth they are drawn, of other units

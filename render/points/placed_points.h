@@ -92,10 +92,6 @@ class PlacedPoints {
     // Along each axis, after how much a mesh's coordinates come again; 0: never.
     glm::dvec3 period() const { return mesh_->period() * glm::abs(scale()); }
     void prefetch(std::uint64_t index) const { mesh_->prefetch(index); }
-    // As position() of a point that the mesh keeps so.
-    glm::dvec3 position(const timeseries::Mesh::Point& point, std::uint64_t index) const {
-        return worldFromAxes_ * (meshScale_ * (mesh_->position(point, index) - meshCentre_));
-    }
     const std::shared_ptr<const timeseries::Mesh>& mesh() const { return mesh_; }  // none: null
 
     const Globe* globe() const { return globe_.get(); }  // none: null

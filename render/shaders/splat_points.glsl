@@ -13,7 +13,7 @@ layout(std140, binding = 0) uniform SplatView {
     vec4 kernel;    // radius in cells, smallest radius at unit depth, mass of a cell with sides 1, point's side in pixels
     vec4 slopeAndLengths;  // squares of x / -z and y / -z per pixel; view length of an axis length, at most; a pixel's area at unit depth
     vec4 domainLo, domainHi, boxHalf;  // in axis coordinates; w: of a splat of size 1, radius over width
-    vec4 meshScale;      // world lengths of the mesh's units; w: sign of the cells that are drawn
+    vec4 meshScale;      // world lengths of the mesh's units; w: 1 where cells that are drawn are turned over, else 0
     vec4 meshOffset;     // its origin in the world; w: a cell's volume over its determinant
     vec4 meshFrom, meshTo;  // inclusive box in its units
     uvec4 placed;  // points along x, y, z; w: that the mesh keeps of one level
@@ -23,7 +23,21 @@ layout(std140, binding = 0) uniform SplatView {
 layout(binding = 0) uniform samplerBuffer axisPoints;  // per axis index: position along it, cell width; MESH: per level
 
 #ifdef MESH
-layout(binding = 2) uniform samplerBuffer meshPoints;  // of a point place, diagonal, below; timeseries::Mesh::Point
+layout(binding = 2) uniform usamplerBuffer meshPoints;  // six words a point: timeseries/grid/shaped_point.h
+
+// SmallFloat::magnitude.
+float magnitude(uint code, int mantissa, int least) {
+    if (code >> mantissa == 0u) return float(code) * uintBitsToFloat(uint(127 + least - mantissa) << 23);
+    return uintBitsToFloat((code << (23 - mantissa)) + (uint(126 + least) << 23));
+}
+float placeOf(uint word) {
+    const float away = magnitude(word & 0x3ffffffu, 22, -13);
+    return (word >> 26 & 1u) != 0u ? -away : away;
+}
+float slopeOf(uint code, int mantissa) {
+    const float up = magnitude(code & ((32u << mantissa) - 1u), mantissa, -4);
+    return code >> (mantissa + 5) != 0u ? -up : up;
+}
 #endif
 
 // In axis coordinates. Its cell: a lower triangular matrix (timeseries::LowerTriangle), of upright
@@ -36,13 +50,17 @@ struct Point {
 
 #ifdef MESH
 Point pointOf(uint gridIndex) {
-    const int level = int(gridIndex / view.placed.w), texel = 3 * int(gridIndex % view.placed.w);
-    const vec3 kept = texelFetch(meshPoints, texel).xyz, by = view.meshScale.xyz;
+    const int level = int(gridIndex / view.placed.w), texel = 2 * int(gridIndex % view.placed.w);
+    const uvec3 first = texelFetch(meshPoints, texel).xyz, last = texelFetch(meshPoints, texel + 1).xyz;
     const vec2 ofLevel = texelFetch(axisPoints, level).xy;
-    const vec3 diagonal = texelFetch(meshPoints, texel + 1).xyz;
-    const bool none = !(view.meshScale.w * diagonal.x > 0.0);
-    const vec3 below = texelFetch(meshPoints, texel + 2).xyz;
-    const float share = uintBitsToFloat((127u - (floatBitsToUint(below.x) & 31u)) << 23);  // 2^-widened
+    const vec3 kept = vec3(placeOf(first.x), placeOf(first.y), placeOf(first.z)), by = view.meshScale.xyz;
+    const vec3 diagonal = vec3(magnitude(last.x & 0x7fffu, 8, -89), magnitude(last.y & 0xfffffffu, 21, -89),
+                               magnitude(last.x >> 15 & 0x7fffu, 8, -89));
+    const uint lowest = first.x >> 27 | first.y >> 27 << 5 | first.z >> 27 << 10;
+    const vec3 below = diagonal.yzz * vec3(slopeOf(lowest, 9), slopeOf(last.z & 0xffffu, 10), slopeOf(last.z >> 16, 10));
+    const uint turned = last.x >> 30 & 1u, widened = last.x >> 31 | last.y >> 28 << 1;
+    const bool none = diagonal.x == 0.0 || float(turned) != view.meshScale.w;
+    const float share = uintBitsToFloat(127u - widened << 23);  // 2^-widened
     Point p;
     p.at = by * kept + view.meshOffset.xyz + vec3(0.0, 0.0, ofLevel.x);
     p.diagonal = by * diagonal;

@@ -28,13 +28,17 @@ class Distances {
     std::array<const double*, 3> position;
     std::array<std::array<double, 3>, 4> fromAxes;
     std::array<double, 3> clipLo, clipHi;
+    // Of a mesh instead: what takes its units there, and where its origin is.
+    std::array<double, 3> meshScale, meshFrom;
     bool clips = false;  // some may be negative
 
  private:
+    void takeMesh();
     void findInMesh(std::span<const std::uint32_t> index,
                     std::span<const timeseries::Mesh::Point> points, std::span<double> away) const;
 
     const PlacedPoints& placed_;
+    timeseries::Mesh::Stored stored_{};
     IndexBox clip_;
     glm::dvec3 from_;
 };

@@ -6,9 +6,9 @@ namespace render {
 namespace {
 
 using Point = timeseries::Mesh::Point;
-constexpr GLenum kTexel = GL_RGB32F;
-constexpr std::uint64_t kTexelBytes = 3 * sizeof(float);
-static_assert(sizeof(Point) == 3 * kTexelBytes);
+constexpr GLenum kTexel = GL_RGB32UI;
+constexpr std::uint64_t kTexelBytes = 3 * sizeof(std::uint32_t);
+static_assert(sizeof(Point) == 2 * kTexelBytes);
 
 }  // namespace
 

@@ -27,8 +27,7 @@ class GlMesh {
     std::uint64_t missingBytes() const { return bytesOf(*mesh_) - sent_; }
     std::uint64_t bytes() const { return onGpu_ ? bytesOf(*mesh_) : 0; }
 
-    // REQUIRES: upload() was called. Three texels a point, as Mesh::Stored has it: place, diagonal
-    // and what is below.
+    // REQUIRES: upload() was called. Two texels a point, as Mesh::Stored has it.
     const gl::BufferTexture& points() const { return onGpu_->texture; }
 
  private:

@@ -11,7 +11,7 @@ void placeMesh(SplatViewBlock& b, const Scene& scene) {
     const timeseries::Mesh& mesh = *scene.placed.mesh();
     const auto stored = mesh.stored();
     const MeshBounds bounds = boundsIn(mesh, scene.clip);
-    b.meshScale = glm::vec4(glm::dvec4(stored.unit * scene.placed.scale(), stored.sign));
+    b.meshScale = glm::vec4(glm::dvec4(stored.unit * scene.placed.scale(), stored.turned));
     b.meshOffset = glm::vec4(
         glm::dvec4(scene.placed.axesFromGrid(stored.origin), mesh.volumePerDeterminant()));
     b.meshFrom = glm::vec4(bounds.lo, 0);

@@ -58,7 +58,7 @@ MeshCells::MeshCells(const PlacedPoints& placed, const timeseries::CellCorners& 
     if (points_.x == 1 || points_.y == 1 || points_.z == 1)
         reach_ = glm::dvec3(std::numeric_limits<double>::infinity());
     byPoints_ = !clip.holdsAll() && !cut_.cuts();
-    isLeft_ = (placed.mesh()->stored().sign < 0) != (scale.x * scale.y * scale.z < 0);
+    isLeft_ = placed.mesh()->stored().turned != (scale.x * scale.y * scale.z < 0);
 }
 
 glm::dvec3 MeshCells::reachOf(const PlacedPoints& placed, const glm::dvec3& length) {

@@ -8,6 +8,7 @@
 //
 #include <hwy/highway.h>
 //
+#include "render/splat/shaped_points-inl.h"
 #include "render/splat/splat_forms-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,24 +18,34 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr double kFarthest = 1e9;  // pixels: nothing beyond is in any picture
 
-// Points and cells as the mesh keeps them, one a lane; cells zero where nothing is drawn.
+using Words = hn::Rebind<std::uint32_t, Floats>;
+
+// Points and cells of a mesh, one a lane; cells zero where nothing is drawn.
 struct MeshPoints {
-    alignas(64) float at[3][kLanes], diagonal[3][kLanes], below[3][kLanes];
+    alignas(64) float at[3][kLanes];
     alignas(64) double level[kLanes];
     alignas(64) float height[kLanes];
+    alignas(64) std::uint32_t clipped[kLanes] = {};  // 1: it is
+    ShapedCells<Words> cell;
 
-    void take(const timeseries::Mesh::Stored& stored, const timeseries::Mesh::Point& point,
-              std::uint32_t gridIndex, bool clipped, std::size_t lane) {
-        const bool drawn = stored.sign * static_cast<double>(point.cell.diagonal.x) > 0 && !clipped;
-        for (int a = 0; a < 3; ++a) {
-            at[a][lane] = point.at[a];
-            diagonal[a][lane] = drawn ? point.cell.diagonal[a] : 0;
-            below[a][lane] = point.cell.below[a];
+    HWY_INLINE void take(const timeseries::Mesh::Stored& stored,
+                         const timeseries::Mesh::Point* points) {
+        const Words words;
+        hn::Vec<Words> word[6];
+        loadWords(words, points, word);
+        for (std::size_t a = 0; a < 3; ++a) hn::Store(placesOf(words, word[a]), Floats(), at[a]);
+        cell = cellsOf(words, word);
+        const auto inside = hn::Eq(hn::Load(words, clipped), hn::Zero(words));
+        auto drawn = hn::RebindMask(Floats(), inside);
+        drawn = stored.turned ? hn::And(drawn, cell.turned) : hn::AndNot(cell.turned, drawn);
+        for (F& side : cell.diagonal) side = hn::IfThenElseZero(drawn, side);
+    }
+    void takeLevels(const timeseries::Mesh::Stored& stored, const std::uint32_t* gridIndex) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const auto& of = stored.levels[gridIndex[lane] / stored.points.size()];
+            level[lane] = of.at;
+            height[lane] = static_cast<float>(of.height);
         }
-        if (stored.levels.empty()) return;
-        const std::size_t k = gridIndex / stored.points.size();
-        level[lane] = stored.levels[k].at;
-        height[lane] = drawn ? static_cast<float>(stored.levels[k].height) : 0;
     }
 };
 
@@ -178,9 +189,9 @@ struct SeenLanes {
         F cell[3];
         const auto scale = [&](std::size_t row) { return static_cast<float>(view.meshScale[row]); };
         for (std::size_t a = 0; a < 3; ++a) {
-            cell[a] = hn::Mul(hn::Load(Floats(), of.diagonal[a]), f(scale(a)));
+            cell[a] = hn::Mul(of.cell.diagonal[a], f(scale(a)));
             const float ofRow = scale(a == 0 ? 1 : 2);
-            m.below[a] = hn::Mul(hn::Load(Floats(), of.below[a]), f(view.kernel * ofRow));
+            m.below[a] = hn::Mul(of.cell.below[a], f(view.kernel * ofRow));
         }
         if (view.hasHeights)
             cell[2] =
@@ -191,20 +202,11 @@ struct SeenLanes {
             m.diagonal[a] = hn::Mul(cell[a], f(view.kernel));
         }
         growTo(hn::Mul(depth, f(view.least)), m);
-        F share = volumeShare();
+        F share = of.cell.share;
         for (std::size_t a = 0; a < 3; ++a)
             share = hn::Mul(share, hn::Mul(cell[a], m.perDiagonal[a]));
         *mass = hn::Mul(f(view.weight), hn::Abs(share));
         return m;
-    }
-
-    // 2^-widened, of timeseries::Mesh::Point.
-    HWY_INLINE F volumeShare() const {
-        const Ints ints;
-        const I steps = hn::And(hn::BitCast(ints, hn::Load(Floats(), of.below[0])),
-                                hn::Set(ints, static_cast<std::int32_t>(timeseries::kMostWidened)));
-        const I exponent = hn::Sub(hn::Set(ints, 127), steps);
-        return hn::BitCast(Floats(), hn::ShiftLeft<23>(exponent));
     }
 
     HWY_INLINE void findForms(const Triangles& factor, F mass) {
@@ -297,15 +299,26 @@ HWY_ATTR void SeeSplats(const Scene& scene, const TileView& view,
     const auto stored = scene.placed.mesh()->stored();
     const bool clips = !scene.clip.holdsAll();
     MeshPoints some;
-    for (std::size_t i = 0; i < gridIndex.size(); i += kLanes) {
-        const std::size_t count = std::min(kLanes, gridIndex.size() - i);
-        for (std::size_t k = 0; k < kLanes; ++k) {
-            const std::size_t at = i + std::min(k, count - 1);
-            const bool clipped = clips && !scene.placed.inside(gridIndex[at], scene.clip);
-            some.take(stored, points[at], gridIndex[at], clipped, k);
-        }
+    const auto see = [&](std::size_t i, const timeseries::Mesh::Point* of,
+                         const std::uint32_t* index, std::size_t count) HWY_ATTR {
+        for (std::size_t k = 0; clips && k < kLanes; ++k)
+            some.clipped[k] = !scene.placed.inside(index[k], scene.clip);
+        some.take(stored, of);
+        if (!stored.levels.empty()) some.takeLevels(stored, index);
         SeenLanes(view, some).findAll(splats.subspan(i, count), spans.subspan(i, count));
+    };
+    std::size_t i = 0;
+    for (; i + kLanes <= gridIndex.size(); i += kLanes)
+        see(i, points.data() + i, gridIndex.data() + i, kLanes);
+    if (i == gridIndex.size()) return;
+    std::array<timeseries::Mesh::Point, kLanes> last;  // and the very last again and again
+    std::array<std::uint32_t, kLanes> lastIndex;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+        const std::size_t at = std::min(i + k, gridIndex.size() - 1);
+        last[k] = points[at];
+        lastIndex[k] = gridIndex[at];
     }
+    see(i, last.data(), lastIndex.data(), gridIndex.size() - i);
 }
 
 }  // namespace HWY_NAMESPACE

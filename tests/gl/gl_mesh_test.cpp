@@ -147,7 +147,7 @@ TEST_F(GlMeshes, AreClippedToThePoint) {
 TEST_F(GlMeshes, ComeInSlicesAndOnceForAllSteps) {
     const auto grid = tests::twisted();
     const World one = worldOf(grid), other = worldOf(grid), own = worldOf(tests::twisted());
-    const std::uint64_t whole = grid->count() * 36;
+    const std::uint64_t whole = grid->count() * 24;
     EXPECT_EQ(GlMesh::bytesOf(*grid->mesh()), whole);
     Scene nothing = one.scene;  // but the mesh
     nothing.layers.clear();

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <numeric>
 
 #include "render/splat/tile_splatter.h"
@@ -27,10 +26,7 @@ void expectKept(DrawnPoints& drawn, const timeseries::Mesh& mesh, std::size_t fi
     const auto points = drawn.of(first, index);
     ASSERT_EQ(points.size(), index.size());
     for (std::size_t i = 0; i < index.size(); ++i)
-        EXPECT_EQ(std::memcmp(&points[i], &stored.points[index[i] % stored.points.size()],
-                              sizeof points[i]),
-                  0)
-            << i;
+        EXPECT_EQ(points[i], stored.points[index[i] % stored.points.size()]) << i;
 }
 
 TEST(DrawnPoints, AreTheMeshsWhateverWasDrawnBefore) {

@@ -18,7 +18,7 @@ using tests::placesOf;
 
 bool isWithin(const MeshBounds& bounds, const timeseries::Mesh& mesh, std::uint64_t index) {
     const auto stored = mesh.stored();
-    const glm::vec3 at = stored.points[index % stored.points.size()].at;
+    const glm::vec3 at = stored.points[index % stored.points.size()].at();
     const auto level = static_cast<std::uint32_t>(index / stored.points.size());
     for (int a = 0; a < 3; ++a)
         if (!(bounds.lo[a] <= at[a] && at[a] <= bounds.hi[a])) return false;

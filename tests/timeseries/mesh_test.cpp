@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
@@ -24,17 +25,19 @@ using tests::placesOf;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Floats hold a place to a 2^24th of the mesh's extent.
+// A place is kept to a 2^24th of the mesh's extent.
 void expectNear(const glm::dvec3& found, const glm::dvec3& expected, double rounding) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], rounding);
 }
-// The shape of a cell of these steps: L L^T = J J^T.
+// The shape of a cell of these steps: L L^T = J J^T, its numbers kept to a 2^9th and one to a
+// 2^8th.
 void expectShape(const LowerTriangle<double>& found, const glm::dmat3& steps, double rounding) {
     const auto rows = found.rows();
     const glm::dmat3 expected = steps * glm::transpose(steps);
     for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b)
-            EXPECT_NEAR(glm::dot(rows[a], rows[b]), expected[a][b], rounding);
+            EXPECT_NEAR(glm::dot(rows[a], rows[b]), expected[a][b],
+                        rounding + 0x1p-7 * std::sqrt(expected[a][a] * expected[b][b]));
 }
 double volume(const Mesh& mesh, std::uint64_t index) {
     return std::abs(mesh.cell(index).determinant());
@@ -82,6 +85,34 @@ TEST(Mesh, CellsAreTheStepsBetweenNeighbours) {
     for (std::uint64_t i = 0; i < mesh.count(); ++i) {
         expectShape(mesh.cell(i), steps, 1e-5);
         EXPECT_NEAR(volume(mesh, i), glm::determinant(steps), 1e-5);
+    }
+}
+
+// Cells that are alike are rounded alike: what they add up to is what they are.
+TEST(Mesh, VolumesAddUpToTheWhole) {
+    using Place = std::function<glm::dvec3(double, double, double)>;
+    const auto grown = [](double i) { return (std::pow(1.2, i) - 1) / 0.2; };
+    const Place places[] = {
+        [](double i, double j, double k) { return glm::dvec3(i, j, k) / 27.0; },
+        [](double i, double j, double k) {
+            return glm::dvec3(i + 0.37 * j, j, 0.7 * k + 0.61 * i);
+        },
+        [&](double i, double j, double k) { return glm::dvec3(i, 3 * j, grown(k) + 0.3 * i); },
+        [](double i, double j, double k) {
+            return glm::dvec3((3 + j) * std::cos(0.1 * i), (3 + j) * std::sin(0.1 * i), k);
+        }};
+    for (const Place& place : places) {
+        const Mesh one(placesOf({30, 20, 10}, place));
+        MeshPlaces levels = placesOf({30, 20, 1}, place);
+        levels.size[2] = 10;
+        for (int k = 0; k < 10; ++k) levels.levels.push_back(grown(k));
+        const Mesh ofLevels(levels);
+        for (const Mesh* each : {&one, &ofLevels}) {
+            double sum = 0;
+            for (std::uint64_t i = 0; i < each->count(); ++i) sum += volume(*each, i);
+            const double whole = double(each->meanVolume()) * double(each->count());
+            EXPECT_NEAR(sum / whole, 1, 5e-7);
+        }
     }
 }
 

@@ -59,7 +59,8 @@ TEST(Unstructured, ABrickReachesAsFarAsItsSides) {
             const auto rows = mesh.cell(index).rows();
             for (int a = 0; a < 3; ++a)
                 for (int b = 0; b < 3; ++b)
-                    EXPECT_NEAR(glm::dot(rows[a], rows[b]), expected[a][b], 1e-5);
+                    EXPECT_NEAR(glm::dot(rows[a], rows[b]), expected[a][b],
+                                0x1p-7 * std::sqrt(expected[a][a] * expected[b][b]));
         };
         for (std::uint64_t i = 0; i < cells.count(); ++i) expectSteps(cells, i);
         expectSteps(points, 1 + 4 * (2 + 4 * 1));  // inside: its star is twice a brick

@@ -21,9 +21,13 @@
 namespace timeseries {
 namespace {
 
-// Dividing by it changes no digit.
-double powerOfTwoBeside(double length) {
-    return length > 0 ? std::ldexp(1.0, std::ilogb(length)) : 1;
+// Dividing by them changes no digit. Where all lie in a plane, cells are about as high as wide.
+glm::dvec3 powersOfTwoBeside(const glm::dvec3& lengths) {
+    const double longest = std::max({lengths.x, lengths.y, lengths.z});
+    glm::dvec3 powers(1);
+    for (int c = 0; c < 3 && longest > 0; ++c)
+        powers[c] = std::ldexp(1.0, std::ilogb(lengths[c] > 0 ? lengths[c] : longest));
+    return powers;
 }
 
 struct Bounds {
@@ -149,14 +153,6 @@ void Mesh::takeColumns(std::uint64_t stored, std::span<const glm::dvec3> between
     hi_.z += highest;
 }
 
-void Mesh::Point::setWidened(unsigned steps) {
-    constexpr float kLeast = 0x1p-100f;  // bits of less may be lost where it is computed with
-    float& below = cell.below.x;
-    if (std::abs(below) < kLeast) below = kLeast;
-    const std::uint32_t rounded = std::bit_cast<std::uint32_t>(below) + (kMostWidened + 1) / 2;
-    below = std::bit_cast<float>((rounded & ~kMostWidened) | steps);
-}
-
 std::uint64_t Mesh::count() const { return std::uint64_t{size_[0]} * size_[1] * size_[2]; }
 
 // From the bounds of these, whose third coordinates have so much added to them.
@@ -167,7 +163,7 @@ void Mesh::takeUnits(std::span<const glm::dvec3> at, double lowest, double highe
     if (!isPlace(lo) || !isPlace(hi) || !isPlace(hi - lo))
         throw std::invalid_argument("no point has a place that is finite");
     origin_ = 0.5 * lo + 0.5 * hi;
-    for (int c = 0; c < 3; ++c) unit_[c] = powerOfTwoBeside(0.5 * (hi[c] - lo[c]));
+    unit_ = powersOfTwoBeside(0.5 * (hi - lo));
 }
 
 void Mesh::takeLevels(const std::vector<double>& levels) {
@@ -184,28 +180,21 @@ void Mesh::takePoints(std::uint64_t count, const MeshPoints& pointsOf) {
     points_ = Pages<Point>(stored_);
     const glm::dvec3 below(origin_.x, origin_.y, levels_.empty() ? origin_.z : 0.0);
     const glm::dvec3 unit = unit_, perUnit = spread_ / unit_;
+    const auto right = levels_.size() > 1 ? Point::Right::Area : Point::Right::Volume;
     const auto take = [&](MeshPoint& point, Sums& sums) -> Point {
         if (!isPlace(point.at)) {
             ++sums.absent;
-            return {glm::vec3(std::numeric_limits<float>::quiet_NaN()), {}};
+            return Point(glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
         }
         sums.bounds.add(point.at);
-        const glm::vec3 place((point.at - below) / unit);
+        const glm::dvec3 place = (point.at - below) / unit;
         for (int c = 0; c < 3; ++c) point.rows[c] *= perUnit[c];
         const auto& rows = point.rows;
         const double wide = glm::dot(rows[0], glm::cross(rows[1], rows[2]));
         const double turned = std::ldexp(wide, -static_cast<int>(point.widened));
         sums.addCell(rows, turned);
-        if (!(std::abs(turned) > 0)) return {place, {}};
-        auto cell = shapeOf(rows);
-        if (turned < 0) {
-            cell.diagonal.x = -cell.diagonal.x;
-            cell.below.x = -cell.below.x;
-            cell.below.y = -cell.below.y;
-        }
-        Point kept{place, cell.as<float>()};
-        kept.setWidened(point.widened);
-        return kept;
+        if (!(std::abs(turned) > 0)) return Point(place);
+        return Point(place, shapeOf(rows), turned < 0, point.widened, right);
     };
     const auto takePiece = [&](std::uint64_t begin, std::uint64_t end) {
         Sums sums;
@@ -230,7 +219,7 @@ void Mesh::takePoints(std::uint64_t count, const MeshPoints& pointsOf) {
 
 void Mesh::takeSums(const Sums& sums) {
     const std::size_t most = sums.cells[1] > sums.cells[0] ? 1 : 0;
-    sign_ = most == 1 ? -1 : 1;
+    turned_ = most == 1;
     lo_ = sums.bounds.lo;
     hi_ = sums.bounds.hi;
     if (sums.cells[most] == 0) throw std::invalid_argument("no cell of the points has a volume");
@@ -280,15 +269,15 @@ glm::dvec3 Mesh::position(std::uint64_t index) const {
 LowerTriangle<double> Mesh::cell(std::uint64_t index) const {
     const bool columns = levels_.size() > 1;
     const Point& point = points_.data()[columns ? index % stored_ : index];
-    if (!(sign_ * static_cast<double>(point.cell.diagonal.x) > 0)) return {};
-    auto cell = point.cell.as<double>().scaled(unit_);
+    if (!point.hasCell() || point.turned() != turned_) return {};
+    auto cell = point.cell().as<double>().scaled(unit_);
     // The steps to the sides lead along all coordinates, those to the levels along the third.
     if (columns) cell.diagonal.z = levels_[index / stored_].height;
     return cell;
 }
 
 Mesh::Stored Mesh::stored() const {
-    return {{points_.data(), stored_}, levels_, origin_, unit_, sign_};
+    return {{points_.data(), stored_}, levels_, origin_, unit_, turned_};
 }
 
 std::vector<std::string> notesOf(const Mesh& mesh) {
@@ -332,7 +321,7 @@ bool operator==(const Mesh& a, const Mesh& b) {
            a.nodes_.size() == b.nodes_.size() && a.stored_ == b.stored_ &&
            (a.nodes_.empty() || std::memcmp(a.nodes_.data(), b.nodes_.data(),
                                             a.nodes_.size() * sizeof(glm::vec3)) == 0) &&
-           std::memcmp(a.points_.data(), b.points_.data(), a.stored_ * sizeof(Mesh::Point)) == 0;
+           std::ranges::equal(a.stored().points, b.stored().points);
 }
 
 }  // namespace timeseries

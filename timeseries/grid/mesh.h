@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -18,6 +17,7 @@
 #include "timeseries/grid/lower_triangle.h"
 #include "timeseries/grid/mesh_about.h"
 #include "timeseries/grid/pages.h"
+#include "timeseries/grid/shaped_point.h"
 
 namespace timeseries {
 
@@ -85,7 +85,10 @@ class Mesh {
     std::uint64_t count() const;
     // In the file's space: to a 2^24th of the mesh's extent. Not finite where the point has none.
     glm::dvec3 position(std::uint64_t index) const;
-    struct Point;
+    // As it is kept, for who works position() and cell() out elsewhere. Relative to the origin, in
+    // the mesh's units, powers of two near the extent. Of columns the cells of all levels are alike
+    // but for their height.
+    using Point = ShapedPoint;
     // The same of what is kept of it.
     glm::dvec3 position(const Point& point, std::uint64_t index) const;
     // Of a corner of solids(): a point, or of those that are numbered on from the last a node.
@@ -148,19 +151,6 @@ class Mesh {
 
     friend bool operator==(const Mesh& a, const Mesh& b);
 
-    // As it is kept, for who works position() and cell() out elsewhere.
-    // 36 bytes. Relative to the origin, in the mesh's units, powers of two near the extent: floats
-    // keep what they can. Of columns the cells of all levels are alike but for their height. The
-    // first column of a cell's shape is negative where it is turned over. The last bits of
-    // below.x are how much a cell is widened; where it has a volume they are of a 2^100th or more.
-    struct Point {
-        glm::vec3 at;
-        LowerTriangle<float> cell;
-        unsigned widened() const {
-            return std::bit_cast<std::uint32_t>(cell.below.x) & kMostWidened;
-        }
-        void setWidened(unsigned steps);
-    };
     // In the file's units, from the origin.
     struct Level {
         double at, height;
@@ -169,7 +159,7 @@ class Mesh {
         std::span<const Point> points;  // [j][i] where there are levels
         std::span<const Level> levels;  // heights stand for those of cells where there are several
         glm::dvec3 origin, unit;
-        double sign;  // of the first diagonal element of the cells that are drawn
+        bool turned;  // that the cells are which are drawn
     };
     Stored stored() const;
 
@@ -196,12 +186,12 @@ class Mesh {
     Box cornersBox_{};             // if there are any
     glm::dvec3 lo_{0}, hi_{0}, widest_{0}, longestWay_{0};
     long double meanVolume_ = 0;
-    double sign_ = 1;  // of the determinants of most cells
+    bool turned_ = false;  // that most cells are
     std::uint64_t folded_ = 0, flat_ = 0, absent_ = 0;
 };
 
 inline glm::dvec3 Mesh::position(const Point& point, std::uint64_t index) const {
-    const glm::dvec3 at = origin_ + unit_ * glm::dvec3(point.at);
+    const glm::dvec3 at = origin_ + unit_ * glm::dvec3(point.at());
     return levels_.empty() ? at : at + glm::dvec3(0, 0, levels_[index / stored_].at);
 }
 

@@ -95,7 +95,7 @@ Axis listedAxis(const NcHeader& header, const ColumnPlaces& list, bool isX) {
 void takeHeights(const CfFile& file, const FileAxes& fileAxes, const NcVariable& variable,
                  const Roles& roles, bool upright, FoundColumns& found,
                  std::vector<std::string>& notes) {
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 26;  // 36 bytes each, of every step
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 26;  // 24 bytes each, of every step
     const NcHeader& header = file.header();
     const auto formula = heightFormulaOf(header, variable, roles);
     if (!formula) return;
