@@ -399,9 +399,9 @@ def meshes_page(part):
         for cubes, cells in [(1, "cubes"), (0, "stretched")]:
             f = part(f"meshBesideUpright/splats:{splats}/pixels:8/what:{what}/cubes:{cubes}")
             rows.append([f"{splats:,}", "8 px", kind, cells, ms(f, "first_ms"), ms(f, "second_ms"), digits(f["second/first"]), digits(f["cpu2/cpu1"])])
-            target(f"{splats:,} splats of a mesh / of {cells if cubes else 'an upright grid'}, {kind}", f["second/first"], 1.6)
+            target(f"a frame of {splats:,} splats of a mesh / of {cells if cubes else 'an upright grid'}, {kind}", f["second/first"], 1.6)
     return ("The points of 256³ placed one by one, beside the same ones of the upright grid, whose cells are cubes, of which all splats are alike,\n"
-            "or stretched along one axis: one plane of 1024 x 1024 by tiles, order included, by turns.\n\n"
+            "or stretched along one axis: whole frames of 1024 x 1024 until `glFinish`, order included, by turns.\n\n"
             + table(["splats", "diameter", "", "cells", "upright", "mesh", "ratio", "of processor time"], rows) + opening_page(part))
 
 

@@ -2,6 +2,7 @@
 // and what the driver makes of point sprites for ordered ones.
 #include <benchmark/benchmark.h>
 
+#include "render/frame/frame.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pass.h"
 #include "render/splat/depth_order.h"
@@ -78,8 +79,8 @@ BENCHMARK(tiles)
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 
-// The same points placed one by one, beside those of the upright grid, whose cells are cubes or, in
-// the middle of one axis, a little larger than at its ends.
+// A window's frame of points placed one by one, beside the same ones of the upright grid, whose
+// cells are cubes or, in the middle of one axis, a little larger than at its ends.
 void meshBesideUpright(benchmark::State& state) {
     const auto splats = static_cast<std::uint64_t>(state.range(0));
     const auto diameter = static_cast<double>(state.range(1));
@@ -93,18 +94,25 @@ void meshBesideUpright(benchmark::State& state) {
         splats, diameter, tests::curvilinear({256, 256, 256}, [&](double i, double j, double k) {
             return glm::dvec3(axes[0].coordinates[static_cast<std::size_t>(i)], j, k);
         }));
-    ByTiles byTiles;
-    const auto draw = [&](bench::ScatteredSplats& world) {
-        colorAndOrder(world.scene, what);
-        byTiles(world, {});
+    const gl::HeadlessContext context;
+    FrameRenderer renderer;
+    GlStep uprightOnGpu(upright.step, upright.placed), meshOnGpu(mesh.step, mesh.placed);
+    for (bench::ScatteredSplats* world : {&upright, &mesh}) colorAndOrder(world->scene, what);
+    uprightOnGpu.upload(upright.scene, neededScale(upright.scene));
+    meshOnGpu.upload(mesh.scene, neededScale(mesh.scene));
+    const auto draw = [&](bench::ScatteredSplats& world, GlStep& onGpu) {
+        const std::array views{world.view};
+        const FrameContent content{world.scene, world.step.grid(), {}, glm::dvec3(0)};
+        renderer.drawEye(renderer.prepare(content, onGpu, views), world.view);
+        glFinish();
     };
     bench::alternate(
-        state, [&] { draw(upright); }, [&] { draw(mesh); });
+        state, [&] { draw(upright, uprightOnGpu); }, [&] { draw(mesh, meshOnGpu); });
 }
 BENCHMARK(meshBesideUpright)
     ->ArgNames({"splats", "pixels", "what", "cubes"})
     ->ArgsProduct({{1'000'000, 100'000}, {8}, {OneColor, Ordered}, {1, 0}})
-    ->Iterations(5)
+    ->Iterations(25)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
