@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +27,20 @@ struct EncodedBlock {
 template <typename T>
 EncodedBlock encodeBlock(std::span<const T> values, std::span<const std::uint32_t> gridIndex,
                          const BrickOrder& order);
+
+std::array<std::uint32_t, 3> sizeOf(const Grid& grid);
+
+// Writes a list of so many points: `encode` makes a block of it, on several threads at once, of
+// those that `find` was last asked for, blocks of a part of the list. Nothing: goOn() said no.
+struct WrittenBlocks {
+    std::vector<StepBlock> directory;
+    std::uint64_t end;  // the byte behind them
+};
+std::optional<WrittenBlocks> writeBlocks(std::uint64_t points,
+                                         const std::function<void(const Run&)>& find,
+                                         const std::function<EncodedBlock(std::uint64_t)>& encode,
+                                         ByteSink& sink, const std::function<bool(double)>& goOn,
+                                         unsigned threads);
 
 // Gives blocks their places, one after the other from byte `at` on: all of a step, or as many as
 // lie together, from a multiple of kBlocksTogether on. Returns the byte behind them.

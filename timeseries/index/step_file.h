@@ -92,5 +92,12 @@ class StepFile {
 // written is of no use. Throws StepFileError, and std::bad_alloc.
 bool writeStep(const SortedStep& step, const std::string& about, ByteSink& sink,
                const std::function<bool(double)>& goOn = {}, unsigned threads = sharingThreads());
+// The same of the field that a step would be built of, of values of one or two bytes, with less
+// memory than its list: of `atOnce` points of it, and fewer than 2^23 more; 0: of an eighth.
+// REQUIRES: canBeCounted().
+bool writeCounted(const Field& field, const std::string& about, ByteSink& sink,
+                  const std::function<bool(double)>& goOn = {}, unsigned threads = sharingThreads(),
+                  std::uint64_t atOnce = 0);
+bool canBeCounted(ValueType type);
 
 }  // namespace timeseries

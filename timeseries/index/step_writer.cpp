@@ -5,50 +5,35 @@
 #include "timeseries/index/step_header.h"
 
 namespace timeseries {
-namespace {
 
-// Blocks [first, first + count) of the step.
-std::vector<EncodedBlock> encodeSome(const SortedStep& step, std::uint64_t first,
-                                     std::uint64_t count, const BrickOrder& order,
-                                     unsigned threads) {
-    const Run run{first * kStepBlock,
-                  std::min(step.size(), (first + count) * kStepBlock) - first * kStepBlock};
-    const Columns columns = step.columns({&run, 1});
-    std::vector<EncodedBlock> encoded(count);
-    std::atomic<std::uint64_t> next{0};
-    sharing(threadsFor(count, 1, threads), [&](unsigned) {
-        for (std::uint64_t b; (b = next++) < count;) {
-            const std::uint64_t from = (first + b) * kStepBlock;
-            const std::uint64_t points = std::min(kStepBlock, step.size() - from);
-            encoded[b] = std::visit(
-                [&]<typename T>(std::span<const T> values) {
-                    return encodeBlock<T>(values.subspan(from, points),
-                                          columns.gridIndex.subspan(from, points), order);
-                },
-                columns.values);
-        }
-    });
-    return encoded;
+std::array<std::uint32_t, 3> sizeOf(const Grid& grid) {
+    std::array<std::uint32_t, 3> size;
+    std::ranges::transform(grid.size(), size.begin(),
+                           [](std::size_t n) { return static_cast<std::uint32_t>(n); });
+    return size;
 }
 
-}  // namespace
-
-bool writeStep(const SortedStep& step, const std::string& about, ByteSink& sink,
-               const std::function<bool(double)>& goOn, unsigned threads) {
-    std::array<std::uint32_t, 3> size;
-    std::ranges::transform(step.grid().size(), size.begin(),
-                           [](std::size_t n) { return static_cast<std::uint32_t>(n); });
-    const BrickOrder order(size);
-    const std::uint64_t blocks = (step.size() + kStepBlock - 1) / kStepBlock;
-
+std::optional<WrittenBlocks> writeBlocks(std::uint64_t points,
+                                         const std::function<void(const Run&)>& find,
+                                         const std::function<EncodedBlock(std::uint64_t)>& encode,
+                                         ByteSink& sink, const std::function<bool(double)>& goOn,
+                                         unsigned threads) {
+    const std::uint64_t blocks = (points + kStepBlock - 1) / kStepBlock;
     std::vector<StepBlock> directory;
     directory.reserve(blocks);
     std::uint64_t at = kHeaderBytes;
     Bytes together;
     for (std::uint64_t first = 0; first < blocks; first += kBlocksTogether) {
-        if (goOn && !goOn(static_cast<double>(first) / static_cast<double>(blocks))) return false;
+        if (goOn && !goOn(static_cast<double>(first) / static_cast<double>(blocks)))
+            return std::nullopt;
         const std::uint64_t count = std::min(kBlocksTogether, blocks - first);
-        const auto encoded = encodeSome(step, first, count, order, threads);
+        const std::uint64_t from = first * kStepBlock;
+        find({from, std::min(points, (first + count) * kStepBlock) - from});
+        std::vector<EncodedBlock> encoded(count);
+        std::atomic<std::uint64_t> next{0};
+        sharing(threadsFor(count, 1, threads), [&](unsigned) {
+            for (std::uint64_t b; (b = next++) < count;) encoded[b] = encode(first + b);
+        });
         together.clear();
         for (const EncodedBlock& block : encoded) {
             together.insert(together.end(), block.ids.begin(), block.ids.end());
@@ -59,8 +44,33 @@ bool writeStep(const SortedStep& step, const std::string& about, ByteSink& sink,
         sink.write(at, together);
         at = placeBlocks(std::span(directory).subspan(first), at);
     }
+    return WrittenBlocks{std::move(directory), at};
+}
+
+bool writeStep(const SortedStep& step, const std::string& about, ByteSink& sink,
+               const std::function<bool(double)>& goOn, unsigned threads) {
+    const std::array<std::uint32_t, 3> size = sizeOf(step.grid());
+    const BrickOrder order(size);
+    Columns columns;
+    const auto encode = [&](std::uint64_t block) {
+        const std::uint64_t from = block * kStepBlock;
+        const std::uint64_t points = std::min(kStepBlock, step.size() - from);
+        return std::visit(
+            [&]<typename T>(std::span<const T> values) {
+                return encodeBlock<T>(values.subspan(from, points),
+                                      columns.gridIndex.subspan(from, points), order);
+            },
+            columns.values);
+    };
+    const auto blocks = writeBlocks(
+        step.size(),
+        [&](const Run& points) {
+            columns = step.columns({&points, 1});
+        },
+        encode, sink, goOn, threads);
+    if (!blocks) return false;
     finishStep({step.type(), size, step.statistics(), step.quantiles(kStepQuantiles), about},
-               directory, at, sink);
+               blocks->directory, blocks->end, sink);
     return true;
 }
 

@@ -156,7 +156,10 @@ std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
 
 StepMaker::Kept StepMaker::keep(std::size_t step) {
     const auto origin = originOf(*reader_, variable_, step);
-    if (origin) expectThere(*origin);
+    if (origin) {
+        expectThere(*origin);
+        if (const auto kept = keepCounted(step, *origin)) return *kept;
+    }
     const auto made = make(step);
     if (made->file()) return Kept::Before;
     if (!hasUnwritten()) {
@@ -167,7 +170,27 @@ StepMaker::Kept StepMaker::keep(std::size_t step) {
     }
     const Unwritten next = unwritten_.front();
     unwritten_.pop_front();
-    switch (stores_.write->write(next.origin, next.stamp, *made, reader_->openedAt)) {
+    return told(stores_.write->write(next.origin, next.stamp, *made, reader_->openedAt),
+                next.origin);
+}
+
+std::optional<StepMaker::Kept> StepMaker::keepCounted(std::size_t step, const StepOrigin& origin) {
+    if (!stores_.write || kept_ != RangeSet::everything() || !canBeCounted(variable().type))
+        return std::nullopt;
+    if (reader_->sorted(variable_, step) || find(origin, step)) return Kept::Before;
+    const auto stamp = stores_.write->stampOf(origin);
+    const Field field = read(step);
+    const auto missing = std::ranges::count(field.missing, true);
+    const std::uint64_t points = field.grid->count() - static_cast<std::uint64_t>(missing);
+    if (points == 0) return Kept::Empty;
+    if (field.grid != variable().grid) return Kept::Moves;
+    if (!stamp || points < stores_.worthWriting) return std::nullopt;
+    const auto into = [&](WholeFile& file) { return writeCounted(field, stamp->text, file); };
+    return told(stores_.write->write(origin, *stamp, reader_->openedAt, into), origin);
+}
+
+StepMaker::Kept StepMaker::told(StepStore::Wrote wrote, const StepOrigin& origin) const {
+    switch (wrote) {
         case StepStore::Wrote::All:
             return Kept::Written;
         case StepStore::Wrote::NoRoom:
@@ -175,7 +198,7 @@ StepMaker::Kept StepMaker::keep(std::size_t step) {
         case StepStore::Wrote::Nothing:
             break;
     }
-    expectThere(next.origin);
+    expectThere(origin);
     return Kept::Changed;
 }
 
