@@ -132,12 +132,9 @@ MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSourc
             // What cannot be read is told when its turn comes, after the pictures before it.
         }
     }
-    // As of the one point that has a field's greatest value, or from where one looks elsewhere.
-    if (isNothing)
-        error.whyNone = modelOf(e) == Model::Cells
-                            ? "nothing is seen of what lies in the ranges between the points; "
-                              "--model points draws the points"
-                            : "nothing is seen of what lies in the ranges";
+    const Model drawn = modelOf(e);
+    if (isNothing) error.whyNone = nothingSeenText(drawn);
+    if (isNothing && drawn == Model::Cells) error.whyNone += "; --model points draws the points";
     return error;
 }
 

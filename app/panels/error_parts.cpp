@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/panels/figures.h"
 #include "app/panels/widgets.h"
@@ -52,6 +53,8 @@ std::vector<ErrorLine> errorPartLines(const Performance& p) {
     if (error == nullptr && p.errors && !p.errors->whyNone.empty())
         return {{"", "", "This picture's error is not known: " + p.errors->whyNone + "."}};
     if (error == nullptr) return {{"", "", "This picture's error is not known yet."}};
+    if (std::isnan(error->depth))
+        return {{"", "", nothingSeenText(p.drawn().model) + ": there is no error"}};
     std::vector<ErrorLine> lines{
         {"whole", shareText(error->depth, boundOf(*error, p.drawn())),
          fmt::format("of optical depth, against the field between points{}",

@@ -46,6 +46,11 @@ std::string depthErrorText(double error, Bound bound) {
     return (isAbout ? "error about " : "error ") + share;
 }
 
+std::string nothingSeenText(Model drawn) {
+    const std::string text = "nothing is seen of what lies in the ranges";
+    return drawn == Model::Cells ? text + " between the points" : text;
+}
+
 std::string lightErrorText(const RungError& error, Ordering ordering) {
     if (!(error.order >= kLeastTold)) return "";
     return fmt::format(", light {} ({})", shareText(error.order), orderReason(ordering));

@@ -18,6 +18,9 @@ Bound boundOf(const RungError& known, const Rung& drawn);
 std::string shareText(double error, Bound bound = Bound::About);
 // "error about 0.4 %"; "" where it is none that can be told.
 std::string depthErrorText(double error, Bound bound = Bound::About);
+// Of what is drawn so and has no error, for there is nothing: as of the one point that has a
+// field's greatest value, or from where one looks elsewhere.
+std::string nothingSeenText(Model drawn);
 // Of a picture whose colours meet in no order.
 inline constexpr const char* kMixed = "colours mixed";
 // ", light 8 % (colours mixed)" where order costs light that shows, else "".

@@ -184,7 +184,8 @@ std::optional<StepMaker::Kept> StepMaker::keepCounted(std::size_t step, const St
     const std::uint64_t points = field.grid->count() - static_cast<std::uint64_t>(missing);
     if (points == 0) return Kept::Empty;
     if (field.grid != variable().grid) return Kept::Moves;
-    if (!stamp || points < stores_.worthWriting) return std::nullopt;
+    if (!stamp || points < stores_.worthWriting || field.type() != variable().type)
+        return std::nullopt;
     const auto into = [&](WholeFile& file) { return writeCounted(field, stamp->text, file); };
     return told(stores_.write->write(origin, *stamp, reader_->openedAt, into), origin);
 }

@@ -68,7 +68,6 @@ Performance sevenPoints() {
 TEST(Figures, StateTheErrorOnceItIsKnown) {
     tests::ScriptedExploration desk;
     Performance p = sevenPoints();
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [error, text] : {std::pair(0.0004, "error below 0.1 %"),
                                       {0.0041, "error about 0.4 %"},
                                       {0.123, "error about 12 %"}}) {
@@ -76,7 +75,19 @@ TEST(Figures, StateTheErrorOnceItIsKnown) {
         EXPECT_THAT(figuresOf(p, desk.exploration.series()),
                     ElementsAre("7 points drawn", text, HasSubstr("7 selected"), testing::_));
     }
+}
+
+// As of points that have a field's greatest value, between which there is nothing.
+TEST(Figures, SayThatNothingIsSeen) {
+    tests::ScriptedExploration desk;
+    Performance p = sevenPoints();
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     p.errors = DepthErrors{.rungs = {{.rung = {Model::Points}, .depth = kNan}}};
+    EXPECT_EQ(figuresOf(p, desk.exploration.series())[1],
+              "nothing is seen of what lies in the ranges");
+    EXPECT_EQ(errorPartLines(p)[0].what,
+              "nothing is seen of what lies in the ranges: there is no error");
+    p.isErrorOfAnother = true;
     EXPECT_THAT(figuresOf(p, desk.exploration.series()),
                 ElementsAre("7 points drawn", HasSubstr("7 selected"), testing::_));
 }
