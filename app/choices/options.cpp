@@ -398,7 +398,8 @@ Command parse(std::span<const char* const> arguments) {
         return Exit{0, version.what()};
     } catch (const CLI::ParseError& error) {
         if (app.get_subcommands().empty()) return Exit{2, notACommand(arguments.front())};
-        return Exit{2, fmt::format("{} (see isochron --help)", parseErrorText(app, error))};
+        return Exit{2,
+                    fmt::format("{} (see isochron --help)", parseErrorText(app, error, arguments))};
     } catch (const std::invalid_argument& error) {
         return Exit{2, error.what()};
     }

@@ -9,6 +9,15 @@
 namespace app {
 namespace {
 
+// The first that looks like an option behind what ends them; "" where there is none.
+std::string behindTheEnd(std::span<const char* const> arguments) {
+    const auto end = std::ranges::find(arguments, std::string_view("--"));
+    const auto option = std::find_if(end, arguments.end(), [](std::string_view argument) {
+        return argument.starts_with('-') && argument != "--";
+    });
+    return option == arguments.end() ? "" : *option;
+}
+
 std::string unexpectedText(const std::vector<std::string>& arguments) {
     const auto option = std::ranges::find_if(
         arguments, [](const std::string& argument) { return argument.starts_with('-'); });
@@ -30,11 +39,15 @@ std::string mismatchText(std::string_view what) {
 
 }  // namespace
 
-std::string parseErrorText(const CLI::App& app, const CLI::ParseError& error) {
+std::string parseErrorText(const CLI::App& app, const CLI::ParseError& error,
+                           std::span<const char* const> arguments) {
     // A mistyped option is why one that is required is not there.
     const std::vector<std::string> unexpected = app.remaining(true);
     const bool isMissing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr,
                isExtra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    if (isMissing || isExtra)
+        if (const std::string option = behindTheEnd(arguments); !option.empty())
+            return fmt::format("{} stands behind --, which ends the options", option);
     if ((isMissing || isExtra) && !unexpected.empty()) return unexpectedText(unexpected);
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
         return mismatchText(error.what());

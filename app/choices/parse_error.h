@@ -3,10 +3,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <span>
 #include <string>
 
 namespace app {
 
-std::string parseErrorText(const CLI::App& app, const CLI::ParseError& error);
+std::string parseErrorText(const CLI::App& app, const CLI::ParseError& error,
+                           std::span<const char* const> arguments);
 
 }  // namespace app

@@ -169,6 +169,10 @@ TEST(Options, WrongCommandLinesAreToldInSentences) {
               "there is no option --outptu" + help)
         << "which is why --output is not there";
     EXPECT_EQ(refused({"render", "a.nc"}), "--output is required" + help);
+    for (const std::vector<std::string>& behind :
+         {std::vector<std::string>{"count", "--", "a.nc", "--range", "1:2"},
+          {"count", "a.nc", "--", "--range", "1:2"}})
+        EXPECT_EQ(refused(behind), "--range stands behind --, which ends the options" + help);
     EXPECT_EQ(refused({"cache", "list", "clear"}), "'clear' is not expected" + help);
     EXPECT_EQ(refused({"cache", "shrink"}), "ACTION: 'shrink' is not one of list, clear" + help);
     EXPECT_EQ(renderRefused({"--threads", "1.5"}),
