@@ -62,7 +62,7 @@ TEST(MeshSplats, OfAStraightMeshAreThoseOfTheUprightGrid) {
             const auto as = [&](std::shared_ptr<const Grid> grid) {
                 return weights(worldOf(std::move(grid), footprint), view);
             };
-            // A cell's shape is kept to a 500th of its sides.
+            // A cell's sides are kept to a 250th.
             expectAlike(as(std::make_shared<Grid>(upright)), as(straight(upright)), 2e-3);
         }
 }

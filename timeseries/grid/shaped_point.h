@@ -10,8 +10,8 @@
 //   below.y, below.z        16 bits  sign, 5 and 10, likewise
 //   turned over, widened     1 and 5 bits
 //
-// The determinant is right to 2^-22, so that splats draw what the cells hold; the shape is right to
-// a 500th of its sides, less than a pixel of a cell that is drawn 500 pixels wide.
+// The determinant is right to 2^-22, so that splats draw what the cells hold; the sides are right to
+// a 250th, x and z to a 500th: less than a pixel of a cell that is drawn 250 pixels wide.
 #pragma once
 
 #include <algorithm>
