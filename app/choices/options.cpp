@@ -12,6 +12,7 @@
 
 #include "app/choices/choice_text.h"
 #include "app/choices/choices.h"
+#include "app/choices/common_options.h"
 #include "app/choices/explorer_options.h"
 #include "app/choices/option_checks.h"
 #include "app/choices/parse_error.h"
@@ -347,24 +348,10 @@ Command parse(std::span<const char* const> arguments) {
         ->check(oneOf({"list", "clear"}));
     CommonOptions common;
     for (CLI::App* each : {viewApp, renderApp, measureApp, infoApp, countApp, indexApp, cacheApp}) {
-        each->add_option("--threads", common.threads,
-                         "At most so many cores; without it, as many as there are, 16 at most")
-            ->check(wholeBetween(1, 1024));
-        each->add_option("--cache", common.cache,
-                         "The folder in which sorted steps are kept, or off; without it the "
-                         "user's own")
-            ->check(notEmpty());
-        each->add_option("--cache-size", common.cacheSize,
-                         "At most so much for it, as 200GB: what was used last stays; without it "
-                         "a tenth of its disk, 64GiB at most")
-            ->transform(sizeOfBytes());
+        addCommon(*each, common);
         each->footer(kFooter);
     }
-    for (CLI::App* each : {viewApp, renderApp, measureApp})
-        each->add_option("--memory", common.memory,
-                         "At most so much memory for loaded steps, as 8GB, though for one always; "
-                         "without it a quarter of the machine's")
-            ->transform(sizeOfBytes());
+    for (CLI::App* each : {viewApp, renderApp, measureApp}) addMemory(*each, common);
     const auto with = [&common](auto options) {
         static_cast<CommonOptions&>(options) = common;
         return options;

@@ -10,8 +10,8 @@
 //   below.y, below.z        16 bits  sign, 5 and 10, likewise
 //   turned over, widened     1 and 5 bits
 //
-// The determinant is right to 2^-22, so that splats draw what the cells hold; the sides are right to
-// a 250th, x and z to a 500th: less than a pixel of a cell that is drawn 250 pixels wide.
+// The determinant is right to 2^-22, so that splats draw what the cells hold; the sides are right
+// to a 250th, x and z to a 500th: less than a pixel of a cell that is drawn 250 pixels wide.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@
 namespace timeseries {
 
 // How a small float is kept: its code ascends with its magnitude. Who unpacks elsewhere
-// (render/splat/seen_splat.cpp, render/shaders/splat_points.glsl) does as this says.
+// (render/splat/shaped_points-inl.h, render/shaders/splat_points.glsl) does as this says.
 struct SmallFloat {
     int mantissa;  // bits of it that are kept
     int least;     // the exponent of the least power of two that is kept as others are
@@ -86,7 +86,7 @@ class ShapedPoint {
         return place;
     }
     bool hasCell() const { return (word[3] & kSide.last()) != 0; }
-    bool turned() const { return word[3] >> 30 & 1; }  // over, beside what it is seen in
+    bool turned() const { return word[3] >> 30 & 1; }  // over
     unsigned widened() const { return word[3] >> 31 | word[4] >> kRightSide.bits << 1; }
     // Zero: none.
     LowerTriangle<float> cell() const {
