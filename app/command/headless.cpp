@@ -24,10 +24,8 @@
 #include "app/picture/range_label.h"
 #include "app/picture/still.h"
 #include "app/say.h"
-#include "render/annotate/ticks.h"
 #include "render/frame/mean_depth.h"
 #include "render/image/picture_file.h"
-#include "timeseries/index/number.h"
 
 namespace app {
 namespace {
@@ -35,10 +33,9 @@ namespace {
 using timeseries::SortedStep;
 
 void tellStyle(const Explorer& e, const timeseries::Variable& variable) {
-    const auto end = [&](double value) {
-        const std::string exact = timeseries::toText(shortestIn(variable.type, value)),
-                          few = fmt::format("{:.9g}", value);
-        return render::withMinusSigns(few.size() < exact.size() ? few : exact);
+    const auto ends = [&](const MapChoice& map) {
+        const timeseries::RangeSet between({timeseries::Range{{*map.lo}, {*map.hi}}});
+        return rangeLabel(shortestIn(variable.type, between), "");
     };
     for (const LayerChoice& layer : e.layers) {
         if (!layer.visible) continue;
@@ -48,8 +45,7 @@ void tellStyle(const Explorer& e, const timeseries::Variable& variable) {
         } else {
             const auto& map = std::get<MapChoice>(*layer.color);
             color = *map.lo == *map.hi ? fmt::format("the middle of {}", map.map.name())
-                                       : fmt::format("{} from {} to {}", map.map.name(),
-                                                     end(*map.lo), end(*map.hi));
+                                       : fmt::format("{} from {}", map.map.name(), ends(map));
         }
         const auto& ranges = layer.motion ? layer.motion->animation : layer.ranges;
         say("  {}: {}, opacity {:.2g}\n", rangeLabel(ranges, variable.units), color,

@@ -249,6 +249,11 @@ void Exploration::takeArrivals() {
             if (arrival.step == step && arrival.sorted) return arrival.sorted;
         return open_->steps.use(step);
     };
+    // The step shown, with fewer points in memory.
+    for (LiveSteps::Arrival& arrival : arrivals)
+        if (arrival.step == open_->step && arrival.sorted && open_->sorted->file() &&
+            arrival.sorted->file() == open_->sorted->file())
+            show(arrival.step, arrival.sorted);
     const std::size_t asked = explorer().steps->first;
     const timeseries::Series& series = open_->steps.series();
     if (series.state(asked) == SlotState::Failed && open_->toldFailed.insert(asked).second)
@@ -282,7 +287,8 @@ void Exploration::takeArrivals() {
 }
 
 // Of a step on disk every point that was ever looked at stays in memory, until there are too many:
-// then it begins anew, if points are what there is too much of and half of them go.
+// then those go that were looked at longest ago, if points are what there is too much of and half
+// of them go.
 void Exploration::dropPointsPassed() {
     const timeseries::Series& series = open_->steps.series();
     const std::size_t step = open_->step;
@@ -291,7 +297,7 @@ void Exploration::dropPointsPassed() {
     if (held < series.budgetBytes() / 2) return;
     const auto looked = open_->sorted->keptPart(rangesLookedAt(explorer()));
     if (held < 2 * open_->sorted->pointBytes(open_->sorted->select(looked))) return;
-    show(step, open_->steps.reopen(step));
+    open_->steps.reopen(step, looked, series.budgetBytes() / 4);
 }
 
 void Exploration::show(std::size_t step, std::shared_ptr<const SortedStep> sorted) {

@@ -1,6 +1,8 @@
 #include "app/exploration/live_steps.h"
 
 #include <algorithm>
+#include <chrono>
+#include <exception>
 #include <iterator>
 #include <thread>
 #include <utility>
@@ -10,12 +12,25 @@
 namespace app {
 
 using timeseries::SlotState;
+using namespace std::chrono_literals;
+using StepPtr = std::shared_ptr<const timeseries::SortedStep>;
 
 namespace {
 
 timeseries::StepStores writable(timeseries::StepStores stores) {
     stores.write = stepCache();
     return stores;
+}
+
+// What cannot be copied, or is not to be read any more, is read again by whoever looks.
+StepPtr withFewerPoints(const timeseries::SortedStep& step, const timeseries::RangeSet& looked,
+                        std::uint64_t bytes) {
+    try {
+        const auto runs = step.select(step.keptPart(looked));
+        return std::make_shared<const timeseries::SortedStep>(step.reopened(runs, bytes));
+    } catch (const std::exception&) {
+        return std::make_shared<const timeseries::SortedStep>(step.reopened());
+    }
 }
 
 // A read that runs, and freeing large steps, takes long enough to be seen.
@@ -30,12 +45,14 @@ LiveSteps::LiveSteps(OpenDataset& dataset, const timeseries::RangeSet& kept,
                      std::uint64_t budgetBytes, std::function<void()> wake)
     : series_(dataset.stepCount(), budgetBytes),
       stores_(writable(storesFor(dataset.reader->files()))),
+      wake_(std::move(wake)),
       loader_(std::make_unique<timeseries::StepLoader>(std::move(dataset.reader),
-                                                       dataset.variableIndex, kept, std::move(wake),
+                                                       dataset.variableIndex, kept, wake_,
                                                        timeseries::Ready::Whole, stores_)) {}
 
 LiveSteps::~LiveSteps() {
-    endElsewhere(std::move(loader_), std::move(series_), std::move(leaving_));
+    endElsewhere(std::move(loader_), std::move(series_), std::move(leaving_),
+                 std::move(reopening_));
 }
 
 void LiveSteps::want(std::vector<std::size_t> mostUrgentFirst, timeseries::RangeSet looked) {
@@ -47,6 +64,7 @@ void LiveSteps::want(std::vector<std::size_t> mostUrgentFirst, timeseries::Range
 
 std::vector<LiveSteps::Arrival> LiveSteps::poll() {
     std::vector<Arrival> arrivals;
+    takeReopened(arrivals);
     while (auto result = loader_->poll()) {
         if (auto* failed = std::get_if<timeseries::Failed>(&*result)) {
             series_.failed(failed->step, std::move(failed->why));
@@ -64,9 +82,26 @@ std::vector<LiveSteps::Arrival> LiveSteps::poll() {
     return arrivals;
 }
 
-std::shared_ptr<const timeseries::SortedStep> LiveSteps::reopen(std::size_t step) {
-    leaving_.push_back(series_.reopen(step));
-    return series_.use(step);
+void LiveSteps::reopen(std::size_t step, timeseries::RangeSet looked, std::uint64_t bytes) {
+    if (reopening_) return;
+    std::promise<StepPtr> made;
+    reopening_ = Reopening{step, series_.use(step), made.get_future()};
+    std::thread([from = reopening_->from, looked = std::move(looked), bytes, made = std::move(made),
+                 wake = wake_]() mutable {
+        made.set_value(withFewerPoints(*from, looked, bytes));
+        from.reset();  // before the interface's thread has the last one
+        wake();
+    }).detach();
+}
+
+void LiveSteps::takeReopened(std::vector<Arrival>& arrivals) {
+    if (!reopening_ || reopening_->made.wait_for(0s) != std::future_status::ready) return;
+    auto [step, from, made] = *std::exchange(reopening_, std::nullopt);
+    StepPtr fewer = made.get();
+    leaving_.push_back(from);
+    if (series_.use(step) != from) return leaving_.push_back(std::move(fewer));
+    leaving_.push_back(series_.replace(step, fewer));
+    arrivals.push_back({step, std::move(fewer)});
 }
 
 void LiveSteps::freeLeaving() {

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/files/dataset.h"
@@ -45,11 +47,14 @@ class LiveSteps {
         return series_.use(step);
     }
     const timeseries::Series& series() const { return series_; }
-    // The step with no points in memory, and in its own place. REQUIRES: series().isStored(step).
-    std::shared_ptr<const timeseries::SortedStep> reopen(std::size_t step);
+    // Begins to make the step anew with fewer points in memory: those in `looked`, and of the others
+    // those last looked at, by so many bytes in all. It comes, as the others do, unless the step has
+    // left until then. Nothing while one is being made. REQUIRES: series().isStored(step).
+    void reopen(std::size_t step, timeseries::RangeSet looked, std::uint64_t bytes);
 
  private:
     void ask();
+    void takeReopened(std::vector<Arrival>& arrivals);
     void freeLeaving();
 
     timeseries::Series series_;
@@ -57,7 +62,15 @@ class LiveSteps {
     // Dropped by the budget, but perhaps still shown: whoever looks at them last must not be the
     // one who frees them, on the interface's thread.
     timeseries::Series::Steps leaving_;
+    std::function<void()> wake_;
     std::unique_ptr<timeseries::StepLoader> loader_;
+    // What is made of a step that is loaded.
+    struct Reopening {
+        std::size_t step;
+        std::shared_ptr<const timeseries::SortedStep> from;
+        std::future<std::shared_ptr<const timeseries::SortedStep>> made;
+    };
+    std::optional<Reopening> reopening_;
     std::vector<std::size_t> wished_;
     timeseries::RangeSet looked_;
     std::size_t seenBelow_ = 0;  // all steps before it are seen, or failed

@@ -22,6 +22,7 @@ namespace {
 using timeseries::Range;
 using timeseries::RangeSet;
 
+constexpr double kPlain = 1e9;  // whole numbers below have no exponent
 constexpr double kLeastResolution = std::numeric_limits<double>::min();
 
 // The text of a bound, the same whether a file, a user or a session wrote it. Doubles of many
@@ -32,7 +33,6 @@ struct BoundText {
     bool isNoShorter = false;  // rounded, it would be as long: it is exact
 };
 BoundText boundText(const timeseries::Number& number, int digits) {
-    constexpr double kPlain = 1e9;  // whole numbers below have no exponent
     const double value = timeseries::toDouble(number);
     std::string exact = timeseries::toText(number);
     if (!std::isfinite(value)) return {exact};
@@ -53,6 +53,14 @@ std::optional<int> firstPlace(const timeseries::Number& number) {
     return static_cast<int>(std::floor(std::log10(value)));
 }
 
+// As long as "-1000000000.5", which reads as well as a rounded one.
+bool isShort(const timeseries::Number& number) {
+    constexpr std::size_t kShort = 13;
+    const double value = timeseries::toDouble(number);
+    const bool isLarge = std::isfinite(value) && std::abs(value) >= kPlain;
+    return timeseries::toText(number).size() <= kShort && !(isLarge && std::trunc(value) == value);
+}
+
 struct EndTexts {
     BoundText lo, hi;
 };
@@ -60,6 +68,7 @@ struct EndTexts {
 // that is much smaller has as many of its own.
 EndTexts endTexts(const Range& range, int digits) {
     const timeseries::Number &lo = range.lo.value, &hi = range.hi.value;
+    if (isShort(lo) && isShort(hi)) return {boundText(lo, kExact), boundText(hi, kExact)};
     const auto loPlace = firstPlace(lo), hiPlace = firstPlace(hi);
     if (!loPlace || !hiPlace || std::abs(*loPlace - *hiPlace) > 1)
         return {boundText(lo, digits), boundText(hi, digits)};

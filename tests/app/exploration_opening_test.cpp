@@ -95,13 +95,20 @@ TEST(Exploration, PointsOfAStoredStepThatWerePassedMakeRoom) {
             const PointCounts counts = *exploration.counts();
             (void)before->columns();  // as a window does that went through all values
             ASSERT_GT(before->pointBytes(), 2'500'000u);
+            const bool makesRoom = !all && budget < before->pointBytes();
             exploration.advance(16ms);
+            EXPECT_EQ(exploration.shown()->sorted, before) << "that is made beside the interface";
+            while (makesRoom && exploration.shown()->sorted == before) exploration.advance(16ms);
+            for (int frame = 0; frame < 3; ++frame) exploration.advance(16ms);
             const auto after = exploration.shown()->sorted;
-            EXPECT_EQ(after != before, !all && budget < before->pointBytes());
+            EXPECT_EQ(after != before, makesRoom);
             EXPECT_EQ(after->file(), before->file());
             EXPECT_EQ(*exploration.counts(), counts);
             if (after == before) continue;
-            EXPECT_LT(exploration.series()->bytes(), 100'000u);
+            const auto looked = after->select(RangeSet::parse("60:62,70:71"));
+            const std::uint64_t kept = std::max(budget / 4, after->pointBytes(looked));
+            EXPECT_GE(after->pointBytes(), after->pointBytes(looked));
+            EXPECT_LT(exploration.series()->bytes(), kept + 100'000);
             for (int frame = 0; frame < 3; ++frame) {
                 (void)after->columns(after->select(next.layers[0].ranges));
                 exploration.advance(16ms);

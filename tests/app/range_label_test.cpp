@@ -46,6 +46,7 @@ TEST(RangeLabel, IsTheSameHoweverANumberIsWritten) {
         return rangeLabel(RangeSet::parse(text), "K");
     };
     for (const auto& [exponent, digits, told] : {std::array{"1e7", "10000000", "10000000"},
+                                                 {"1e10", "10000000000", "1e+10"},
                                                  {"3.8e13", "38000000000000", "3.8e+13"},
                                                  {"-2e2", "-200", "\u2212200"},
                                                  {"-0.0", "0", "0"}}) {
@@ -72,17 +73,24 @@ TEST(RangeLabel, LongDoublesAreRoundedAndSaidToBe) {
     EXPECT_EQ(label("0.1:0.30000000000000004"), "≈ 0.1 to 0.3 K");
     EXPECT_EQ(label("1426.5184782812678:max"), "≈ ≥ 1426.518 K");
     // As many digits as tell the ends apart, and how far; integers are never rounded.
-    EXPECT_EQ(label("1.00000000123:1.00000000456"), "≈ 1.0000000012 to 1.0000000046 K");
+    EXPECT_EQ(label("1.000000001234:1.000000004567"), "≈ 1.0000000012 to 1.0000000046 K");
     EXPECT_EQ(label("0.3:0.30000000000000004"), "0.3 to 0.30000000000000004 K");
     EXPECT_EQ(label("9007199254740993:9007199254740995"), "9007199254740993 to 9007199254740995 K");
     EXPECT_EQ(label("123456.7:123456789.5"), "123456.7 to 123456789.5 K") << "no shorter so";
+}
+
+// As a first choice is where values lie close to each other and far from 0.
+TEST(RangeLabel, ShortDoublesAreExact) {
+    EXPECT_EQ(rangeLabel(RangeSet::parse("min:1000000000.62,1000000003.57:max"), "Pa"),
+              "≤ 1000000000.62, ≥ 1000000003.57 Pa");
+    EXPECT_EQ(rangeLabel(RangeSet::parse("-1000000000.5:max"), "Pa"), "≥ −1000000000.5 Pa");
 }
 
 TEST(RangeLabel, ARangeIsToldAboutAsWideAsItIs) {
     const auto label = [](const char* text) { return rangeLabel(RangeSet::parse(text), "K"); };
     EXPECT_EQ(label("10000000.2:10000000.75"), "10000000.2 to 10000000.75 K");
     EXPECT_EQ(label("9999999.5:10000000.5"), "9999999.5 to 10000000.5 K");
-    EXPECT_EQ(label("101325.149:101325.251"), "≈ 101325.15 to 101325.25 K");
+    EXPECT_EQ(label("101325.1491234:101325.2512345"), "≈ 101325.15 to 101325.25 K");
     EXPECT_EQ(label("12345678.91234:123456789.5"), "12345678.91234 to 123456789.5 K");
     EXPECT_EQ(label("0.000012345678:1000.123456789"), "≈ 1.234568e−05 to 1000.123 K")
         << "nothing is rounded away";

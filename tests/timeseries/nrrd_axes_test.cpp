@@ -63,6 +63,16 @@ TEST(Nrrd, AxesWithoutSpacingAreCountedAndSaySo) {
                     "z is placed by index: a spacing of 1 does not tell its samples apart"));
 }
 
+TEST(Nrrd, SeveralAxesWithoutSpacingAreToldTogether) {
+    const auto notes = [](const char* spacings) {
+        return openWritten(slab(spacings))->variables()[0].notes;
+    };
+    EXPECT_THAT(notes("spacings: nan 2 nan\n"),
+                ElementsAre("x and z are placed by index: the file has no spacing for them"));
+    EXPECT_THAT(notes("spacings: nan nan nan\n"),
+                ElementsAre("x, y and z are placed by index: the file has no spacing for them"));
+}
+
 // The place of every sample as the format defines it: origin + i d0 + j d1 + k d2.
 void expectPlaces(const Grid& grid, const glm::dvec3& origin, const glm::dmat3& steps) {
     const auto n = grid.size();

@@ -180,6 +180,34 @@ TEST(StepFile, OpenedAgainHoldsNoPointsButTheSameCells) {
     expectSame<float>(step, again, random);
 }
 
+TEST(StepFile, OpenedAgainKeepsWhatItIsToldAndWhatWasLookedAtLast) {
+    const SortedStep step = smooth({64, 64, 64});
+    const SortedStep stored = storedOf(step);
+    const std::uint64_t atFirst = stored.pointBytes();
+    const auto look = [](const SortedStep& at, std::uint64_t block) {
+        const timeseries::Run run{block * kStepBlock + 7, 1};
+        (void)at.columns({&run, 1});
+    };
+    for (const std::uint64_t block : {3, 0, 1, 2, 5, 0, 1}) look(stored, block);
+    constexpr std::uint64_t kBlockBytes = kStepBlock * (sizeof(float) + 4);
+    // Block 4 is not there, block 3 was looked at before all others, and then 2, 5, 0 and 1.
+    const std::vector<timeseries::Run> runs = {{3 * kStepBlock + 5, 10}, {4 * kStepBlock, 1}};
+    const SortedStep fewer = stored.reopened(runs, 4 * kBlockBytes - 1);
+    EXPECT_EQ(fewer.pointBytes(), atFirst + 3 * kBlockBytes);
+    for (const std::uint64_t block : {3, 0, 1}) look(fewer, block);
+    EXPECT_EQ(fewer.pointBytes(), atFirst + 3 * kBlockBytes) << "they were there";
+    look(fewer, 2);
+    // How long ago each was looked at goes on.
+    const SortedStep next = fewer.reopened({}, 2 * kBlockBytes);
+    for (const std::uint64_t block : {2, 1}) look(next, block);
+    EXPECT_EQ(next.pointBytes(), atFirst + 2 * kBlockBytes);
+
+    EXPECT_EQ(stored.reopened(runs, 0).pointBytes(), atFirst + kBlockBytes) << "whatever it takes";
+    std::mt19937_64 random(6);
+    expectSame<float>(step, fewer, random);
+    expectSame<float>(step, stored.reopened({}, ~std::uint64_t{0}), random);
+}
+
 TEST(StepFile, OfAnotherGridIsRefused) {
     const SortedStep step = smooth({4, 5, 6});
     EXPECT_THROW((void)SortedStep::stored(tests::opened(tests::written(step)),

@@ -1,8 +1,10 @@
 #include "timeseries/index/lazy_column.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "timeseries/grid/with_type.h"
 #include "timeseries/index/pair_sort.h"
@@ -21,7 +23,9 @@ LazyColumn<T>::LazyColumn(Partition<T> points, unsigned threads,
     : points_(std::move(points)),
       threads_(threads),
       source_(std::move(source)),
-      state_(std::make_unique<std::atomic<std::uint8_t>[]>(points_.least.size())) {}
+      state_(std::make_unique<std::atomic<std::uint8_t>[]>(points_.least.size())) {
+    if (source_) lastLook_ = std::make_unique<std::atomic<std::uint64_t>[]>(points_.least.size());
+}
 
 template <typename T>
 std::size_t LazyColumn<T>::bucketAt(std::uint64_t point) const {
@@ -66,8 +70,13 @@ Run LazyColumn<T>::find(const Interval<T>& interval) const {
 
 template <typename T>
 void LazyColumn<T>::order(const Run& run) const {
-    if (run.count == 0 || allOrdered_.load(std::memory_order_acquire)) return;
+    if (run.count == 0 || (!source_ && allOrdered_.load(std::memory_order_acquire))) return;
     const std::size_t from = bucketAt(run.first), to = bucketAt(run.first + run.count - 1) + 1;
+    if (source_) {
+        const std::uint64_t look = looks_.fetch_add(1, std::memory_order_relaxed) + 1;
+        for (std::size_t b = from; b < to; ++b) lastLook_[b].store(look, std::memory_order_relaxed);
+        if (allOrdered_.load(std::memory_order_acquire)) return;
+    }
     std::vector<std::size_t> raw;
     std::uint64_t points = 0;
     for (std::size_t b = from; b < to; ++b)
@@ -133,20 +142,68 @@ template <typename T>
 std::uint64_t LazyColumn<T>::bytes() const {
     return (source_ ? fetched_.load() : size()) * (sizeof(T) + sizeof(std::uint32_t)) +
            points_.begin.capacity() * sizeof(points_.begin[0]) +
-           (points_.least.capacity() + points_.greatest.capacity()) * sizeof(Key) + buckets();
+           (points_.least.capacity() + points_.greatest.capacity()) * sizeof(Key) +
+           buckets() * (source_ ? 1 + sizeof lastLook_[0] : 1);
+}
+
+template <typename T>
+std::uint64_t LazyColumn<T>::bucketBytes(std::size_t bucket) const {
+    return (points_.begin[bucket + 1] - points_.begin[bucket]) *
+           (sizeof(T) + sizeof(std::uint32_t));
+}
+
+template <typename T>
+template <typename Do>
+void LazyColumn<T>::forEachBucket(std::span<const Run> runs, const Do& what) const {
+    std::size_t next = 0;  // behind the last one that was met
+    for (const Run& run : runs) {
+        if (run.count == 0) continue;
+        const std::size_t end = bucketAt(run.first + run.count - 1) + 1;
+        for (std::size_t b = std::max(bucketAt(run.first), next); b < end; ++b) what(b);
+        next = std::max(next, end);
+    }
 }
 
 template <typename T>
 std::uint64_t LazyColumn<T>::bytes(std::span<const Run> runs) const {
-    std::uint64_t points = 0;
-    std::size_t next = 0;  // the first bucket that was not counted
-    for (const Run& run : runs) {
-        if (run.count == 0) continue;
-        const std::size_t from = std::max(bucketAt(run.first), next);
-        next = std::max(next, bucketAt(run.first + run.count - 1) + 1);
-        if (from < next) points += points_.begin[next] - points_.begin[from];
+    std::uint64_t bytes = 0;
+    forEachBucket(runs, [&](std::size_t bucket) { bytes += bucketBytes(bucket); });
+    return bytes;
+}
+
+template <typename T>
+void LazyColumn<T>::takeOver(const LazyColumn& other, std::span<const Run> runs,
+                             std::uint64_t bytes) {
+    const auto isThere = [&](std::size_t b) {
+        return other.state_[b].load(std::memory_order_acquire) == kOrdered;
+    };
+    const auto take = [&](std::size_t b) {
+        const std::uint64_t first = points_.begin[b], count = points_.begin[b + 1] - first;
+        std::copy_n(other.points_.values.data() + first, count, points_.values.data() + first);
+        std::copy_n(other.points_.gridIndex.data() + first, count,
+                    points_.gridIndex.data() + first);
+        lastLook_[b].store(other.lastLook_[b].load(std::memory_order_relaxed));
+        state_[b].store(kOrdered, std::memory_order_release);
+        fetched_ += count;
+    };
+    looks_.store(other.looks_.load());
+    std::uint64_t taken = 0;
+    forEachBucket(runs, [&](std::size_t b) {
+        if (!isThere(b)) return;
+        take(b);
+        taken += bucketBytes(b);
+    });
+    // As they were looked at by now, whatever others look at meanwhile.
+    std::vector<std::pair<std::uint64_t, std::size_t>> byLook;
+    for (std::size_t b = 0; b < buckets(); ++b)
+        if (isThere(b) && state_[b].load() != kOrdered)
+            byLook.emplace_back(other.lastLook_[b].load(std::memory_order_relaxed), b);
+    std::ranges::sort(byLook, std::greater());
+    for (const auto& [look, b] : byLook) {
+        taken += bucketBytes(b);
+        if (taken > bytes) return;
+        take(b);
     }
-    return points * (sizeof(T) + sizeof(std::uint32_t));
 }
 
 template <typename T>

@@ -44,6 +44,10 @@ class LazyColumn {
     std::span<const std::uint32_t> gridIndex() const { return {points_.gridIndex.data(), size()}; }
     void order(const Run& run) const;
     void orderAll() const { order({0, size()}); }
+    // Copies what another column of the same source has in memory: the buckets of these runs, and
+    // as many of the others, last looked at first, as all together take at most so many bytes.
+    // REQUIRES: nobody has looked at this one.
+    void takeOver(const LazyColumn& other, std::span<const Run> runs, std::uint64_t bytes);
 
     // The points with lo <= value <= hi: at most 2 (log2 n + 2) comparisons. Sorts the buckets that
     // the ends fall into, no other; of a source it reads their keys.
@@ -65,6 +69,9 @@ class LazyColumn {
     std::size_t bucketAt(std::uint64_t point) const;
     void orderBucket(std::size_t bucket) const;
     void sortBucket(std::size_t bucket) const;
+    std::uint64_t bucketBytes(std::size_t bucket) const;
+    template <typename Do>
+    void forEachBucket(std::span<const Run> runs, const Do& what) const;  // each once
 
     Partition<T> points_;
     unsigned threads_;
@@ -72,6 +79,9 @@ class LazyColumn {
     mutable std::atomic<std::uint64_t> fetched_ = 0;      // points
     std::unique_ptr<std::atomic<std::uint8_t>[]> state_;  // of each bucket
     mutable std::atomic<bool> allOrdered_ = false;
+    // With a source: how many looks there were, and which was the last at each bucket.
+    mutable std::atomic<std::uint64_t> looks_ = 0;
+    std::unique_ptr<std::atomic<std::uint64_t>[]> lastLook_;
 };
 
 }  // namespace timeseries

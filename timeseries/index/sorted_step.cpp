@@ -179,9 +179,16 @@ SortedStep SortedStep::stored(std::shared_ptr<const StepFile> file,
     return step;
 }
 
-SortedStep SortedStep::reopened() const {
+SortedStep SortedStep::reopened(std::span<const Run> runs, std::uint64_t bytes) const {
     SortedStep step = stored(file_, grid_, ofCategories_, source_, threads_);
     step.cells_ = cells_;
+    std::visit(
+        [&]<typename T>(const std::shared_ptr<const LazyColumn<T>>& points) {
+            auto fewer = storedColumn<T>(file_, source_.again, threads_);
+            fewer->takeOver(*points, runs, bytes);
+            step.columns_ = std::shared_ptr<const LazyColumn<T>>(std::move(fewer));
+        },
+        columns_);
     return step;
 }
 

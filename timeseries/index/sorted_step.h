@@ -106,9 +106,10 @@ class SortedStep {
                              bool categories);
     // Null unless it is read from a file.
     const std::shared_ptr<const StepFile>& file() const { return file_; }
-    // This step with no points in memory, for those who look at others by now. Cells stay.
+    // This step with fewer points in memory: those in `runs`, which ascend, and of the others that
+    // are there those last looked at, by so many bytes in all. It copies them; cells are shared.
     // REQUIRES: file().
-    SortedStep reopened() const;
+    SortedStep reopened(std::span<const Run> runs = {}, std::uint64_t bytes = 0) const;
     // All values in the grid's order: of the source, which is soon read, where there is one.
     // Missing points are marked or NaN. REQUIRES: all values were kept, or a source.
     Field field() const;

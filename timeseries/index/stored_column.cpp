@@ -83,8 +83,8 @@ T valueOf(const Number& number) {
 }  // namespace
 
 template <typename T>
-std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile> file, Again again,
-                                                  unsigned threads) {
+std::unique_ptr<LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile> file, Again again,
+                                            unsigned threads) {
     const StepStatistics& statistics = file->statistics();
     Partition<T> points;
     for (const StepBlock& block : file->blocks()) {
@@ -98,12 +98,12 @@ std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile
     points.leastValid = valueOf<T>(statistics.min);
     points.greatestValid = valueOf<T>(statistics.max);
     auto source = std::make_unique<const FileBuckets<T>>(std::move(file), std::move(again));
-    return std::make_unique<const LazyColumn<T>>(std::move(points), threads, std::move(source));
+    return std::make_unique<LazyColumn<T>>(std::move(points), threads, std::move(source));
 }
 
-#define ISOCHRON_TYPE(T)                                                                        \
-    template std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile>, \
-                                                               Again, unsigned);
+#define ISOCHRON_TYPE(T)                                                                         \
+    template std::unique_ptr<LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile>, Again, \
+                                                         unsigned);
 ISOCHRON_EACH_TYPE(ISOCHRON_TYPE)
 #undef ISOCHRON_TYPE
 

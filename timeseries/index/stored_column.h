@@ -15,7 +15,7 @@ using Again = std::function<SortedStep(const std::string& why)>;  // SortedStep:
 
 // REQUIRES: T is of file->type().
 template <typename T>
-std::unique_ptr<const LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile> file, Again again,
-                                                  unsigned threads);
+std::unique_ptr<LazyColumn<T>> storedColumn(std::shared_ptr<const StepFile> file, Again again,
+                                            unsigned threads);
 
 }  // namespace timeseries

@@ -80,10 +80,10 @@ Series::Steps Series::recount() {
     return left;
 }
 
-std::shared_ptr<const SortedStep> Series::reopen(std::size_t step) {
+std::shared_ptr<const SortedStep> Series::replace(std::size_t step,
+                                                  std::shared_ptr<const SortedStep> fewer) {
     Slot& slot = slots_[step];
-    auto left =
-        std::exchange(slot.sorted, std::make_shared<const SortedStep>(slot.sorted->reopened()));
+    auto left = std::exchange(slot.sorted, std::move(fewer));
     bytes_ = bytes_ - slot.summary->bytes + slot.sorted->bytes();
     slot.summary->bytes = slot.sorted->bytes();
     largest_ = 0;

@@ -70,9 +70,10 @@ class Series {
     Steps loaded(std::size_t step, std::shared_ptr<const SortedStep> sorted);
     // Steps grow while they are looked at: takes note of what they take now, and evicts.
     Steps recount();
-    // Puts the same step, its points dropped, where it is (SortedStep::reopened), and returns what
-    // left. REQUIRES: isStored(step).
-    std::shared_ptr<const SortedStep> reopen(std::size_t step);
+    // Puts the same step with fewer points in memory (SortedStep::reopened) where it is, and
+    // returns what left. REQUIRES: it is loaded.
+    std::shared_ptr<const SortedStep> replace(std::size_t step,
+                                              std::shared_ptr<const SortedStep> fewer);
     // Takes a step out that nobody will look at soon; returns what was there, or null.
     std::shared_ptr<const SortedStep> drop(std::size_t step);
     // A step that failed is not handed out again before retry().

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "timeseries/readers/limits.h"
+#include "timeseries/readers/placed_by_index.h"
 #include "timeseries/readers/text/units.h"
 #include "timeseries/readers/text/words.h"
 
@@ -103,8 +104,7 @@ Axis spacedAxis(const ArrayAxis& axis, const std::string& name, std::vector<std:
         spacing = gaps == 0 ? 1 : (axis.max - axis.min) / static_cast<double>(gaps);
     }
     if (std::isnan(spacing)) {
-        if (axis.size > 1)
-            notes.push_back(index.name + " is placed by index: the file has no spacing for it");
+        if (axis.size > 1) notePlacedByIndex(notes, index.name, "spacing");
         return index;
     }
     const double first = std::isnan(axis.min) ? 0 : axis.min + (cell ? spacing / 2 : 0);

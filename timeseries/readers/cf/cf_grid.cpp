@@ -9,6 +9,7 @@
 #include "timeseries/readers/cf/cf_seam.h"
 #include "timeseries/readers/cf/cf_values.h"
 #include "timeseries/readers/limits.h"
+#include "timeseries/readers/placed_by_index.h"
 #include "timeseries/readers/text/units.h"
 
 namespace timeseries {
@@ -38,7 +39,7 @@ Axis axisOf(const CfFile& file, const FileAxes& fileAxes, const NcVariable& vari
     const NcVariable* coordinate = fileAxes.coordinateOf(variable, position);
     std::optional<Axis> ofMpas = coordinate ? std::nullopt : mpasDepthsOf(file, variable, position);
     if (!coordinate && !ofMpas) {
-        notes.push_back(dimension.name + " is placed by index: the file has no coordinates for it");
+        notePlacedByIndex(notes, dimension.name, "coordinates");
         return {dimension.name, "index", indexCoordinates(dimension.length), false};
     }
     Axis axis = ofMpas ? std::move(*ofMpas)
