@@ -47,9 +47,9 @@ class LiveSteps {
         return series_.use(step);
     }
     const timeseries::Series& series() const { return series_; }
-    // Begins to make the step anew with fewer points in memory: those in `looked`, and of the others
-    // those last looked at, by so many bytes in all. It comes, as the others do, unless the step has
-    // left until then. Nothing while one is being made. REQUIRES: series().isStored(step).
+    // Begins to make the step anew with fewer points in memory: those in `looked`, and of the
+    // others those last looked at, by so many bytes in all. It comes, as the others do, unless the
+    // step has left until then. Nothing while one is being made. REQUIRES: series().isStored(step).
     void reopen(std::size_t step, timeseries::RangeSet looked, std::uint64_t bytes);
 
  private:
