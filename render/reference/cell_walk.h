@@ -31,39 +31,55 @@ class CellWalk {
         }
         return out;
     }
+    // The cells that are walked through.
+    struct Box {
+        glm::uvec3 first{0}, end{0};
+    };
+    const Box& box() const { return box_; }
+    // The same space in bricks of so many cells along each axis, the last ones with fewer.
+    // REQUIRES: all cells are walked through.
+    CellWalk inBricks(unsigned cells) const;
+
     // visit(cell, from, to) for every cell that eye + t along passes at t >= near, the nearest
-    // first; from < to. Where it returns something, as long as that is true.
+    // first; from < to. Where it returns something, as long as that is true. False: it was not.
     template <typename Visit>
-    void operator()(const glm::dvec3& eye, const glm::dvec3& along, double near,
-                    const Visit& visit) const;
+    bool operator()(const glm::dvec3& eye, const glm::dvec3& along, double near,
+                    const Visit& visit) const {
+        return within(box_, eye, along, near, visit);
+    }
+    // Of those in a box of them.
+    template <typename Visit>
+    bool within(const Box& box, const glm::dvec3& eye, const glm::dvec3& along, double near,
+                const Visit& visit) const;
 
  private:
+    CellWalk() = default;
     static constexpr double kNever = std::numeric_limits<double>::infinity();
 
     double face(int axis, std::size_t i) const { return faces_[static_cast<std::size_t>(axis)][i]; }
-    std::size_t cellAt(int axis, double place) const;
+    std::size_t cellAt(int axis, double place, const Box& box) const;
 
     // Per axis, in the order of indices, ascending or descending: one more than cells.
     std::array<std::vector<double>, 3> faces_;
     glm::uvec3 size_{0};
-    glm::uvec3 first_{0}, end_{0};  // cells that are walked through
+    Box box_;
 };
 
 template <typename Visit>
-void CellWalk::operator()(const glm::dvec3& eye, const glm::dvec3& along, double near,
-                          const Visit& visit) const {
+bool CellWalk::within(const Box& box, const glm::dvec3& eye, const glm::dvec3& along, double near,
+                      const Visit& visit) const {
     double at = near, end = kNever;
     for (int a = 0; a < 3; ++a) {
-        const double one = face(a, first_[a]), other = face(a, end_[a]);
+        const double one = face(a, box.first[a]), other = face(a, box.end[a]);
         if (along[a] == 0) {
-            if (!(eye[a] > std::min(one, other) && eye[a] < std::max(one, other))) return;
+            if (!(eye[a] > std::min(one, other) && eye[a] < std::max(one, other))) return true;
             continue;
         }
         const double t = (one - eye[a]) / along[a], u = (other - eye[a]) / along[a];
         at = std::max(at, std::min(t, u));
         end = std::min(end, std::max(t, u));
     }
-    if (!(at < end)) return;
+    if (!(at < end)) return true;
     glm::uvec3 cell{0};
     std::array<bool, 3> up{};
     glm::dvec3 leaves(kNever);
@@ -72,10 +88,10 @@ void CellWalk::operator()(const glm::dvec3& eye, const glm::dvec3& along, double
                along[a];
     };
     const auto isLast = [&](int a) {
-        return cell[a] == (up[static_cast<std::size_t>(a)] ? end_[a] - 1 : first_[a]);
+        return cell[a] == (up[static_cast<std::size_t>(a)] ? box.end[a] - 1 : box.first[a]);
     };
     for (int a = 0; a < 3; ++a) {
-        cell[a] = static_cast<unsigned>(cellAt(a, eye[a] + at * along[a]));
+        cell[a] = static_cast<unsigned>(cellAt(a, eye[a] + at * along[a], box));
         if (along[a] == 0) continue;
         up[static_cast<std::size_t>(a)] = (along[a] > 0) == (face(a, size_[a]) > face(a, 0));
         for (leaves[a] = leave(a); leaves[a] <= at && !isLast(a); leaves[a] = leave(a))
@@ -89,9 +105,9 @@ void CellWalk::operator()(const glm::dvec3& eye, const glm::dvec3& along, double
             if constexpr (std::is_void_v<decltype(visit(cell, at, to))>)
                 visit(cell, at, to);
             else if (!visit(cell, at, to))
-                return;
+                return false;
         }
-        if (!(leaves[a] < end) || isLast(a)) return;
+        if (!(leaves[a] < end) || isLast(a)) return true;
         at = std::max(at, to);
         cell[a] += up[static_cast<std::size_t>(a)] ? 1u : -1u;
         leaves[a] = leave(a);

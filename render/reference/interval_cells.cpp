@@ -193,13 +193,8 @@ const IntervalCells::Met& IntervalCells::meet(const glm::uvec3& cell, Lately& la
     if (met.number == number) return met;
     met.number = number;
     met.kind = kind(cell);
-    if (met.kind == Kind::Part || (met.kind == Kind::Whole && per_ == OpacityPer::Crossing))
-        met.corners = scaledCornersOf(cell);
+    if (met.kind != Kind::Nothing) met.corners = scaledCornersOf(cell);
     return met;
-}
-
-IntervalCells::Kind IntervalCells::kind(const glm::uvec3& cell, Lately& lately) const {
-    return meet(cell, lately).kind;
 }
 
 void IntervalCells::addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
@@ -284,16 +279,20 @@ double IntervalCells::passage(const Corners& corners, const glm::dvec3& from, co
 }
 
 void IntervalCells::addPassages(const glm::uvec3& cell, const glm::dvec3& from,
-                                const glm::dvec3& to, std::vector<Passage>& into) const {
-    std::vector<LinePart> parts;
+                                const glm::dvec3& to, std::vector<Passage>& into,
+                                Lately& lately) const {
+    const Met& met = meet(cell, lately);
+    const Kind kind = met.kind;
+    const Corners& corners = met.corners;
+    std::vector<LinePart>& parts = lately.parts_;
+    parts.clear();
+    if (kind == Kind::Nothing) return;
     if (per_ == OpacityPer::Length) {
-        if (kind(cell) == Kind::Whole) parts.push_back({0, 1});
-        if (kind(cell) == Kind::Part) addParts(cell, from, to, parts);
+        if (kind == Kind::Whole) parts.push_back({0, 1});
+        if (kind == Kind::Part) addParts(corners, from, to, parts);
         for (const LinePart& part : parts) into.push_back({part, kInfinity});
         return;
     }
-    const Corners corners = scaledCornersOf(cell);
-    if (kindOf(corners) == Kind::Nothing) return;
     forEachPieceOf(corners.octants, from, to, [&](const LinePart& piece) {
         if (corners.least == corners.greatest) return into.push_back({piece, kInfinity});
         const Cubic cubic = cubicOnLine(corners.scaled, glm::mix(from, to, piece.from),
@@ -310,14 +309,18 @@ void IntervalCells::addPassages(const glm::uvec3& cell, const glm::dvec3& from,
 }
 
 double IntervalCells::passageInside(const glm::uvec3& cell, const glm::dvec3& from,
-                                    const glm::dvec3& to, double whole, double width) const {
+                                    const glm::dvec3& to, double whole, double width,
+                                    Lately& lately) const {
     if (!std::isfinite(width)) return whole;
-    return passageWithin(cubicOnLine(scaledCornersOf(cell).scaled, from, to), -kInfinity, kInfinity,
-                         width, whole);
+    return passageWithin(cubicOnLine(meet(cell, lately).corners.scaled, from, to), -kInfinity,
+                         kInfinity, width, whole);
 }
 
-IntervalCells::CellField IntervalCells::fieldIn(const glm::uvec3& cell) const {
-    const Corners corners = cornersOf(cell);
+IntervalCells::CellField IntervalCells::fieldIn(const glm::uvec3& cell, Lately& lately) const {
+    return fieldOf(meet(cell, lately).corners);
+}
+
+IntervalCells::CellField IntervalCells::fieldOf(const Corners& corners) {
     CellField field;
     field.values_ = corners.values;
     field.least_ = corners.least;

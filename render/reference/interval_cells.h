@@ -54,9 +54,9 @@ class IntervalCells {
         double width;
     };
     void addPassages(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
-                     std::vector<Passage>& into) const;
+                     std::vector<Passage>& into, Lately& lately) const;
     double passageInside(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
-                         double whole, double width) const;
+                         double whole, double width, Lately& lately) const;
     // Adds the parts, of [0, 1], of the line between two places of the cell (in units of it) on
     // which the field is in the ranges. Disjoint.
     void addParts(const glm::uvec3& cell, const glm::dvec3& from, const glm::dvec3& to,
@@ -72,9 +72,10 @@ class IntervalCells {
         std::array<double, 8> values_;
         double least_, greatest_;
     };
-    CellField fieldIn(const glm::uvec3& cell) const;
+    // REQUIRES: kind(cell) is not Nothing.
+    CellField fieldIn(const glm::uvec3& cell, Lately& lately) const;
     double valueAt(const glm::uvec3& cell, const glm::dvec3& place) const {
-        return fieldIn(cell).valueAt(place);
+        return fieldOf(cornersOf(cell)).valueAt(place);
     }
 
  private:
@@ -93,6 +94,7 @@ class IntervalCells {
     struct Met;
     const Met& meet(const glm::uvec3& cell, Lately& lately) const;
     Corners cornersOf(const glm::uvec3& cell) const;
+    static CellField fieldOf(const Corners& corners);
     // Whether all corners have values, and none reaches into a range: of most cells, and soon told.
     bool isBeyond(const glm::uvec3& cell) const;
     void addParts(const Corners& corners, const glm::dvec3& from, const glm::dvec3& to,
@@ -120,8 +122,12 @@ class IntervalCells {
 struct IntervalCells::Met {
     std::size_t number = std::numeric_limits<std::size_t>::max();
     Kind kind = Kind::Nothing;
-    Corners corners{};  // where it is a part, or of crossings
+    Corners corners{};  // unless Nothing
 };
+
+inline IntervalCells::Kind IntervalCells::kind(const glm::uvec3& cell, Lately& lately) const {
+    return kinds_.empty() ? meet(cell, lately).kind : kinds_[numberOf(cell)];
+}
 
 // Of one IntervalCells.
 class IntervalCells::Lately {
@@ -129,6 +135,7 @@ class IntervalCells::Lately {
     friend class IntervalCells;
     static constexpr int kBits = 12;  // more than a pixel's rays meet in a large field
     std::vector<Met> met_ = std::vector<Met>(std::size_t{1} << kBits);
+    std::vector<LinePart> parts_;  // of one call
 };
 
 }  // namespace render

@@ -48,6 +48,7 @@ struct LightWork {
     std::vector<double> depths;                    // and optical depths
     std::vector<IntervalCells::CellField> fields;  // of these
     std::array<glm::dvec3, 8> slopes;              // at the corners of a cell
+    std::vector<IntervalCells::Lately> lately;     // of each layer
     std::optional<LightOnRay> seen;
 };
 
@@ -94,33 +95,42 @@ IntervalTruth::IntervalTruth(const Scene& scene, const timeseries::FieldSlab& sl
       places_(placesOfRays(raysAcross)),
       threads_(std::max(threads, 1u)) {
     if (scene.placed.isMesh()) return;
-    walk_.emplace(scene.placed, slab.firstCell, slab.endCell);
     for (const Layer& layer : scene.layers)
         layers_.emplace_back(slab, scene.clip, layer.cells.ranges, threads_, look,
                              truthPer(scene, layer));
+    CellWalk cells(scene.placed, slab.firstCell, slab.endCell);
+    if (look == IntervalCells::Look::WhenAsked)
+        walk_.emplace(std::move(cells));
+    else
+        walk_.emplace(std::move(cells), [&](const glm::uvec3& cell) {
+            return std::ranges::any_of(layers_, [&](const IntervalCells& layer) {
+                return layer.kind(cell) != Kind::Nothing;
+            });
+        });
 }
 
 double IntervalTruth::weight(const Ray& ray, std::size_t layer, WeightWork& work) const {
     std::vector<LinePart>& parts = work.parts;
-    const IntervalCells& cells = layers_[layer];
+    const IntervalCells& inLayer = layers_[layer];
+    const CellWalk& cells = walk_->cells();
     if (truthPer(scene_, scene_.layers[layer]) == OpacityPer::Crossing) {
         double passed = 0;
         (*walk_)(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
-            if (cells.kind(cell, work.lately) == Kind::Nothing) return;
-            passed += cells.passage(cell, walk_->inCell(cell, ray.eye + from * ray.along),
-                                    walk_->inCell(cell, ray.eye + to * ray.along),
-                                    (to - from) * ray.weight, work.lately);
+            if (inLayer.kind(cell, work.lately) == Kind::Nothing) return;
+            passed += inLayer.passage(cell, cells.inCell(cell, ray.eye + from * ray.along),
+                                      cells.inCell(cell, ray.eye + to * ray.along),
+                                      (to - from) * ray.weight, work.lately);
         });
         return passed;
     }
     double length = 0;
     (*walk_)(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
-        const Kind kind = cells.kind(cell, work.lately);
+        const Kind kind = inLayer.kind(cell, work.lately);
         if (kind == Kind::Whole) length += to - from;
         if (kind != Kind::Part) return;
         parts.clear();
-        cells.addParts(cell, walk_->inCell(cell, ray.eye + from * ray.along),
-                       walk_->inCell(cell, ray.eye + to * ray.along), parts, work.lately);
+        inLayer.addParts(cell, cells.inCell(cell, ray.eye + from * ray.along),
+                         cells.inCell(cell, ray.eye + to * ray.along), parts, work.lately);
         for (const LinePart& part : parts) length += (to - from) * (part.to - part.from);
     });
     return length * ray.weight;
@@ -145,7 +155,7 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
         work.ends.clear();
         for (std::size_t k = 0; k < layers_.size(); ++k) {
             work.passages.clear();
-            layers_[k].addPassages(way.cell, way.from, way.to, work.passages);
+            layers_[k].addPassages(way.cell, way.from, way.to, work.passages, work.lately[k]);
             for (const IntervalCells::Passage& each : work.passages) {
                 work.ofLayers.push_back({each.part, k, each.width});
                 work.ends.push_back(each.part.from);
@@ -154,6 +164,7 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
         }
         std::ranges::sort(work.ends);
     };
+    const CellWalk& cells = walk_->cells();
     const double steepness = steepnessOf(scene_);
     const glm::dmat3& worldFromAxes = scene_.placed.worldFromAxes();
     const glm::dmat3 gradients = glm::transpose(glm::inverse(worldFromAxes));
@@ -177,7 +188,7 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
             work.depths.push_back(opticalDepthPerWeight(scene_.layers[k].style.opacity) *
                                   layers_[k].passageInside(way.cell, placeAt(0), placeAt(1),
                                                            way.whole * (piece.to - piece.from),
-                                                           work.widths[i]));
+                                                           work.widths[i], work.lately[k]));
         }
         work.seen->pass(
             work.in, work.depths,
@@ -196,7 +207,7 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
             if (middle >= part.from && middle <= part.to) {
                 work.in.push_back(k);
                 work.widths.push_back(width);
-                work.fields.push_back(layers_[k].fieldIn(way.cell));
+                work.fields.push_back(layers_[k].fieldIn(way.cell, work.lately[k]));
                 isEven = isEven && !std::isfinite(width);
             }
         // What a crossing makes of a way changes along it.
@@ -209,27 +220,34 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
     };
     return meanOfRays<glm::dvec4, LightWork>(
         view, allPixels(view.size), places_, [&](const Ray& ray, LightWork& work) {
-            if (!work.seen) work.seen.emplace(scene_.layers);
+            if (!work.seen) {
+                work.seen.emplace(scene_.layers);
+                work.lately.resize(layers_.size());
+            }
             LightOnRay& seen = *work.seen;
             seen.begin();
-            (*walk_)(ray.eye, ray.along, ray.near,
-                     [&](const glm::uvec3& cell, double from, double to) {
-                         const auto isIn = [&](const IntervalCells& layer) {
-                             return layer.kind(cell) != Kind::Nothing;
-                         };
-                         if (seen.isOpaque() || std::ranges::none_of(layers_, isIn)) return;
-                         const Through way{cell, walk_->inCell(cell, ray.eye + from * ray.along),
-                                           walk_->inCell(cell, ray.eye + to * ray.along), ray.along,
-                                           (to - from) * ray.weight};
-                         collect(way, work);
-                         if (slopes && !layers_.front().fieldIn(cell).isEven())
-                             work.slopes = slopes->gradients(cell, scale);
-                         else
-                             work.slopes = {};
-                         for (std::size_t i = 1; i < work.ends.size(); ++i)
-                             if (work.ends[i] > work.ends[i - 1])
-                                 pass(way, {work.ends[i - 1], work.ends[i]}, work);
-                     });
+            (*walk_)(
+                ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
+                    const auto isIn = [&](std::size_t k) {
+                        return layers_[k].kind(cell, work.lately[k]) != Kind::Nothing;
+                    };
+                    std::size_t in = 0;
+                    while (in < layers_.size() && !isIn(in)) ++in;
+                    if (in == layers_.size()) return true;
+                    const Through way{cell, cells.inCell(cell, ray.eye + from * ray.along),
+                                      cells.inCell(cell, ray.eye + to * ray.along), ray.along,
+                                      (to - from) * ray.weight};
+                    collect(way, work);
+                    if (slopes) {
+                        const bool isEven = layers_[in].fieldIn(cell, work.lately[in]).isEven();
+                        work.slopes =
+                            isEven ? std::array<glm::dvec3, 8>{} : slopes->gradients(cell, scale);
+                    }
+                    for (std::size_t i = 1; i < work.ends.size(); ++i)
+                        if (work.ends[i] > work.ends[i - 1])
+                            pass(way, {work.ends[i - 1], work.ends[i]}, work);
+                    return !seen.isOpaque();
+                });
             return seen.light();
         });
 }

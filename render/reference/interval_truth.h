@@ -13,8 +13,8 @@
 
 #include "render/model/scene.h"
 #include "render/points/view.h"
-#include "render/reference/cell_walk.h"
 #include "render/reference/interval_cells.h"
+#include "render/reference/sparse_walk.h"
 #include "render/together.h"
 
 namespace render {
@@ -65,7 +65,7 @@ class IntervalTruth {
     timeseries::FieldSlab slab_;
     std::vector<glm::dvec2> places_;
     unsigned threads_;
-    std::optional<CellWalk> walk_;  // none of a mesh
+    std::optional<SparseWalk> walk_;  // none of a mesh
     std::vector<IntervalCells> layers_;
 };
 
