@@ -4,6 +4,7 @@
 #include <chrono>
 #include <exception>
 #include <iterator>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -22,14 +23,19 @@ timeseries::StepStores writable(timeseries::StepStores stores) {
     return stores;
 }
 
-// What cannot be copied, or is not to be read any more, is read again by whoever looks.
+// What cannot be copied, or is not to be read any more, is read again by whoever looks. Null where
+// there is no memory for that either.
 StepPtr withFewerPoints(const timeseries::SortedStep& step, const timeseries::RangeSet& looked,
                         std::uint64_t bytes) {
     try {
         const auto runs = step.select(step.keptPart(looked));
         return std::make_shared<const timeseries::SortedStep>(step.reopened(runs, bytes));
     } catch (const std::exception&) {
+    }
+    try {
         return std::make_shared<const timeseries::SortedStep>(step.reopened());
+    } catch (const std::bad_alloc&) {
+        return nullptr;
     }
 }
 
@@ -95,13 +101,17 @@ void LiveSteps::reopen(std::size_t step, timeseries::RangeSet looked, std::uint6
 }
 
 void LiveSteps::takeReopened(std::vector<Arrival>& arrivals) {
-    if (!reopening_ || reopening_->made.wait_for(0s) != std::future_status::ready) return;
-    auto [step, from, made] = *std::exchange(reopening_, std::nullopt);
-    StepPtr fewer = made.get();
+    if (!reopening_ || !reopening_->made.valid() ||
+        reopening_->made.wait_for(0s) != std::future_status::ready)
+        return;
+    const StepPtr fewer = reopening_->made.get(), from = std::exchange(reopening_->from, nullptr);
+    const std::size_t step = reopening_->step;
     leaving_.push_back(from);
-    if (series_.use(step) != from) return leaving_.push_back(std::move(fewer));
+    if (!fewer) return;  // and none will be made
+    reopening_.reset();
+    if (series_.use(step) != from) return leaving_.push_back(fewer);
     leaving_.push_back(series_.replace(step, fewer));
-    arrivals.push_back({step, std::move(fewer)});
+    arrivals.push_back({step, fewer});
 }
 
 void LiveSteps::freeLeaving() {
