@@ -91,13 +91,14 @@ std::vector<LiveSteps::Arrival> LiveSteps::poll() {
 void LiveSteps::reopen(std::size_t step, timeseries::RangeSet looked, std::uint64_t bytes) {
     if (reopening_) return;
     std::promise<StepPtr> made;
-    reopening_ = Reopening{step, series_.use(step), made.get_future()};
-    std::thread([from = reopening_->from, looked = std::move(looked), bytes, made = std::move(made),
+    Reopening reopening{step, series_.use(step), made.get_future()};
+    std::thread([from = reopening.from, looked = std::move(looked), bytes, made = std::move(made),
                  wake = wake_]() mutable {
         made.set_value(withFewerPoints(*from, looked, bytes));
         from.reset();  // before the interface's thread has the last one
         wake();
     }).detach();
+    reopening_ = std::move(reopening);
 }
 
 void LiveSteps::takeReopened(std::vector<Arrival>& arrivals) {
