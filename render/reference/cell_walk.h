@@ -31,11 +31,10 @@ class CellWalk {
         }
         return out;
     }
-    // The cells that are walked through.
+    // Cells [first, end) along each axis.
     struct Box {
         glm::uvec3 first{0}, end{0};
     };
-    const Box& box() const { return box_; }
     // The same space in bricks of so many cells along each axis, the last ones with fewer.
     // REQUIRES: all cells are walked through.
     CellWalk inBricks(unsigned cells) const;
@@ -62,7 +61,7 @@ class CellWalk {
     // Per axis, in the order of indices, ascending or descending: one more than cells.
     std::array<std::vector<double>, 3> faces_;
     glm::uvec3 size_{0};
-    Box box_;
+    Box box_;  // what is walked through
 };
 
 template <typename Visit>

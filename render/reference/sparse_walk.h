@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/common.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,14 +15,15 @@ namespace render {
 class SparseWalk {
  public:
     // Of all cells that the walk goes through.
-    explicit SparseWalk(CellWalk cells) : cells_(std::move(cells)), bricks_(cells_) {}
+    explicit SparseWalk(CellWalk cells) : cells_(std::move(cells)) {}
     // Of those at least for which isIn(cell), which is asked of each.
     // REQUIRES: the walk goes through all of the grid.
     template <typename IsIn>
     SparseWalk(CellWalk cells, const IsIn& isIn)
         : cells_(std::move(cells)), bricks_(cells_.inBricks(kBrick)) {
         const glm::uvec3 size = cells_.size();
-        isOccupied_.resize(std::size_t{bricks_.size().x} * bricks_.size().y * bricks_.size().z);
+        const glm::uvec3 bricks = bricks_->size();
+        isOccupied_.resize(std::size_t{bricks.x} * bricks.y * bricks.z);
         for (unsigned z = 0; z < size.z; ++z)
             for (unsigned y = 0; y < size.y; ++y)
                 for (unsigned x = 0; x < size.x; ++x)
@@ -34,8 +36,8 @@ class SparseWalk {
     template <typename Visit>
     bool operator()(const glm::dvec3& eye, const glm::dvec3& along, double near,
                     const Visit& visit) const {
-        if (isOccupied_.empty()) return cells_(eye, along, near, visit);
-        return bricks_(eye, along, near, [&](const glm::uvec3& brick, double, double) {
+        if (!bricks_) return cells_(eye, along, near, visit);
+        return (*bricks_)(eye, along, near, [&](const glm::uvec3& brick, double, double) {
             if (isOccupied_[numberOf(brick)] == 0) return true;
             return cells_.within({brick * kBrick, glm::min((brick + 1u) * kBrick, cells_.size())},
                                  eye, along, near, visit);
@@ -46,12 +48,13 @@ class SparseWalk {
     static constexpr unsigned kBrick = 8;
 
     std::size_t numberOf(const glm::uvec3& brick) const {
-        const glm::uvec3 size = bricks_.size();
+        const glm::uvec3 size = bricks_->size();
         return brick.x + std::size_t{size.x} * (brick.y + std::size_t{size.y} * brick.z);
     }
 
-    CellWalk cells_, bricks_;
-    std::vector<std::uint8_t> isOccupied_;  // of each brick; empty: no bricks
+    CellWalk cells_;
+    std::optional<CellWalk> bricks_;
+    std::vector<std::uint8_t> isOccupied_;  // of each brick
 };
 
 }  // namespace render

@@ -170,8 +170,8 @@ TEST(NetcdfAxes, PositionDecidesWhatNothingElseTells) {
     }
     EXPECT_EQ(reader->variables()[0].time->points[4].value, 4.0) << "counted";
     EXPECT_THAT(reader->variables()[0].notes,
-                testing::Contains(
-                    testing::StartsWith("dd, cc and bb are placed by index: the file has no")));
+                testing::Contains("dd, cc and bb are placed by index: "
+                                  "the file has no coordinates for them"));
 }
 
 TEST(NetcdfAxes, WhatIsTimeForOneVariableIsNoHeightForAnother) {

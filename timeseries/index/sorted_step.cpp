@@ -180,8 +180,7 @@ SortedStep SortedStep::stored(std::shared_ptr<const StepFile> file,
 }
 
 SortedStep SortedStep::reopened(std::span<const Run> runs, std::uint64_t bytes) const {
-    SortedStep step = stored(file_, grid_, ofCategories_, source_, threads_);
-    step.cells_ = cells_;
+    SortedStep step = *this;
     std::visit(
         [&]<typename T>(const std::shared_ptr<const LazyColumn<T>>& points) {
             auto fewer = storedColumn<T>(file_, source_.again, threads_);
