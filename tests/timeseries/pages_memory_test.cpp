@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace timeseries {
@@ -33,6 +36,63 @@ TEST(Pages, WhatIsGivenBackTakesNoMemoryUntilItIsWritten) {
     EXPECT_TRUE(std::ranges::all_of(some, [](std::uint8_t value) { return value == 2; }));
     giveBack(some.data(), 100);  // less than a page
     EXPECT_EQ(some[0], 2);
+}
+
+// Which pages of 4 KiB from here on the system may put into large ones: those of mappings that
+// have "hg" among their flags. Empty where it knows no such thing.
+std::vector<bool> mayBeLarge(const std::uint8_t* at, std::size_t pages) {
+    std::vector<bool> may(pages);
+    std::ifstream file("/proc/self/smaps");
+    std::uintptr_t first = 0, end = 0;
+    bool any = false;
+    for (std::string line; std::getline(file, line);) {
+        std::uintptr_t from = 0, to = 0;
+        if (std::sscanf(line.c_str(), "%lx-%lx ", &from, &to) == 2) {
+            first = from;
+            end = to;
+        } else if (line.starts_with("VmFlags:")) {
+            any = any || line.find(" nh") != std::string::npos;
+            if (line.find(" hg") == std::string::npos) continue;
+            for (std::size_t i = 0; i < pages; ++i) {
+                const auto page = reinterpret_cast<std::uintptr_t>(at) + i * 4096;
+                if (page >= first && page < end) may[i] = true;
+            }
+        }
+    }
+    return any ? may : std::vector<bool>();
+}
+
+TEST(Pages, WhatWillBeWrittenComesInLargePagesThatItFillsByAQuarterAtLeast) {
+    constexpr std::size_t kLarge = std::size_t{2} << 20, kBytes = 40 * kLarge;
+    // Stretches as shares of a large page, behind the first that lies within.
+    const std::vector<std::pair<double, double>> stretches = {
+        {2, 3}, {5.74, 7.26}, {9.76, 11.24}, {14.5, 15.4}, {20.1, 20.9}, {0, 0}};
+    const Pages<std::uint8_t> pages(kBytes, Filled::Sparsely);
+    std::uint8_t* const base = pages.data();
+    if (mayBeLarge(base, 1).empty()) GTEST_SKIP() << "the system has no large pages to ask for";
+    const std::size_t aligned = (kLarge - reinterpret_cast<std::uintptr_t>(base) % kLarge) % kLarge;
+    const auto byteOf = [&](double at) {
+        return aligned + static_cast<std::size_t>(at * static_cast<double>(kLarge));
+    };
+    for (const auto& [from, to] : stretches)
+        pages.willBeWritten(byteOf(from), byteOf(to) - byteOf(from));
+    const std::vector<bool> may = mayBeLarge(base + aligned, 30 * kLarge / 4096);
+    for (std::size_t page = 0; page < 30; ++page) {
+        bool expected = false;
+        for (const auto& [from, to] : stretches) {
+            const auto at = static_cast<double>(page);
+            expected |= to - from >= 1 && std::min(to, at + 1) - std::max(from, at) >= 0.25;
+        }
+        EXPECT_EQ(may[page * 512], expected) << page;
+        EXPECT_EQ(may[page * 512 + 511], expected) << page;
+    }
+    // At either end it stays within the memory.
+    pages.willBeWritten(0, kBytes);
+    const auto count = kBytes / 4096;
+    const std::vector<bool> beside = mayBeLarge(base - 4096 * 512, 512);
+    EXPECT_TRUE(std::ranges::none_of(beside, [](bool is) { return is; }));
+    std::fill_n(base, kBytes, std::uint8_t{3});
+    EXPECT_EQ(base[count * 4096 - 1], 3);
 }
 
 }  // namespace

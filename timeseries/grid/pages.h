@@ -25,6 +25,11 @@ void* takePages(std::size_t bytes, Filled filled = Filled::Mostly);
 // As they were taken.
 void givePages(void* at, std::size_t bytes, Filled filled = Filled::Mostly) noexcept;
 
+// Of so many bytes that were taken to be sparsely filled, those of [first, end) will now be
+// written: they come in large pages, where these are fewer faults and take no more than as much
+// again.
+void willBeWritten(void* at, std::size_t bytes, std::size_t first, std::size_t end) noexcept;
+
 // Asks the system for memory that will all be written, on all threads: one waits longer for its
 // pages than for what it writes.
 void populate(void* at, std::size_t bytes);
@@ -63,6 +68,10 @@ class Pages {
         if (at_ != nullptr) givePages(at_, bytes_, filled_);
     }
     T* data() const { return static_cast<T*>(at_); }
+    // Of what is sparsely filled.
+    void willBeWritten(std::size_t first, std::size_t count) const noexcept {
+        timeseries::willBeWritten(at_, bytes_, first * sizeof(T), (first + count) * sizeof(T));
+    }
 
  private:
     std::size_t bytes_;

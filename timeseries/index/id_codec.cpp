@@ -2,6 +2,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <memory>
@@ -18,20 +19,23 @@ constexpr std::uint32_t kSmall = 16;
 constexpr std::uint32_t kGapClasses = kSmall + 4 * (32 - 4);  // gaps of up to 32 bits
 constexpr int kLevel = 3;                                     // more costs time and gains a percent
 
-struct GapClass {
+// That the class leaves open.
+constexpr std::uint32_t openBits(std::uint8_t gapClass) {
+    return gapClass < kSmall ? 0 : (gapClass - kSmall) / 4u + 2;
+}
+
+struct alignas(16) GapClass {
     std::uint32_t least = 0;  // gap
-    int bits = 0;             // that the class leaves open
+    std::uint32_t open = 0;   // as many ones as there are open bits
+    int bits = 0;             // which are so many
 };
 
 constexpr std::array<GapClass, 256> classTable() {
     std::array<GapClass, 256> table{};
     for (std::uint32_t c = 0; c < kGapClasses; ++c) {
-        if (c < kSmall) {
-            table[c] = {c, 0};
-            continue;
-        }
-        const int width = static_cast<int>((c - kSmall) >> 2) + 5;
-        table[c] = {(4u | ((c - kSmall) & 3)) << (width - 3), width - 3};
+        const auto bits = static_cast<int>(openBits(static_cast<std::uint8_t>(c)));
+        const std::uint32_t least = c < kSmall ? c : (4u | (c & 3)) << bits;
+        table[c] = {least, (1u << bits) - 1, bits};
     }
     return table;
 }
@@ -97,21 +101,19 @@ bool decodeIds(std::span<const std::byte> from, std::span<std::uint32_t> ids) {
         return false;
     from = from.subspan(packed);
 
+    std::uint8_t greatest = 0;
     std::uint64_t bits = 0;
-    bool known = true;
-    for (std::size_t i = 0; i < count; ++i) {
-        known &= classes[i] < kGapClasses;
-        bits += static_cast<std::uint64_t>(kTable[classes[i]].bits);
-    }
-    if (!known || (bits + 7) / 8 != from.size()) return false;
+    for (std::size_t i = 0; i < count; ++i) greatest = std::max(greatest, classes[i]);
+    for (std::size_t i = 0; i < count; ++i) bits += openBits(classes[i]);
+    if (greatest >= kGapClasses || (bits + 7) / 8 != from.size()) return false;
 
     ids[0] = static_cast<std::uint32_t>(id);
     std::uint64_t bit = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const GapClass of = kTable[classes[i]];
+        const GapClass& of = kTable[classes[i]];
         const std::uint64_t open = load<std::uint64_t>(from.data() + bit / 8) >> (bit % 8);
         bit += static_cast<std::uint64_t>(of.bits);
-        id += of.least + (open & lowBits(of.bits)) + 1;
+        id += std::uint64_t{of.least} + (open & of.open) + 1;
         ids[i + 1] = static_cast<std::uint32_t>(id);
     }
     return id <= ~std::uint32_t{0};

@@ -20,10 +20,19 @@ void unpack(const std::byte* from, int bits, std::span<Key> fields) {
     const std::uint64_t mask = lowBits(bits);
     if (bits <= 57) {  // and the seven before it in its first byte
         std::uint64_t bit = 0;
-        for (Key& field : fields) {
-            field = static_cast<Key>(load<std::uint64_t>(from + bit / 8) >> (bit % 8) & mask);
-            bit += static_cast<std::uint64_t>(bits);
-        }
+        const auto next = [&](int taken) {
+            const std::uint64_t word = load<std::uint64_t>(from + bit / 8) >> (bit % 8);
+            bit += static_cast<std::uint64_t>(taken);
+            return word;
+        };
+        std::size_t i = 0;
+        if (bits <= 28)
+            for (; i + 2 <= fields.size(); i += 2) {
+                const std::uint64_t two = next(2 * bits);
+                fields[i] = static_cast<Key>(two & mask);
+                fields[i + 1] = static_cast<Key>(two >> bits & mask);
+            }
+        for (; i < fields.size(); ++i) fields[i] = static_cast<Key>(next(bits) & mask);
     } else {
         for (std::size_t i = 0; i < fields.size(); ++i)
             fields[i] = static_cast<Key>(fieldAt(from, i, bits));
@@ -95,13 +104,12 @@ bool decodeKeys(std::span<const std::byte> from, KeyLayout layout, Key least, Ke
     } else {
         return false;
     }
+    // Two loops, which compilers turn into vectors.
     const auto most = static_cast<Key>(greatest - least);
-    bool good = true;
-    for (Key& key : keys) {
-        good &= key <= static_cast<Key>(most >> layout.shift);
-        key = static_cast<Key>(least + static_cast<Key>(key << layout.shift));
-    }
-    return good;
+    Key residual = 0;
+    for (const Key key : keys) residual = std::max(residual, key);
+    for (Key& key : keys) key = static_cast<Key>(least + static_cast<Key>(key << layout.shift));
+    return residual <= static_cast<Key>(most >> layout.shift);
 }
 
 #define ISOCHRON_KEYS(Key)                                                             \

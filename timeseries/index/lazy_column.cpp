@@ -85,7 +85,10 @@ void LazyColumn<T>::order(const Run& run) const {
             points += points_.begin[b + 1] - points_.begin[b];
         }
     std::atomic<std::size_t> next{0};
-    if (source_ && !raw.empty()) source_->willNeed(raw.front(), raw.back() - raw.front() + 1);
+    if (source_ && !raw.empty()) {
+        source_->willNeed(raw.front(), raw.back() - raw.front() + 1);
+        willFill(raw);
+    }
     if (!raw.empty())
         sharing(threadsFor(points, kWorthAThread, threads_), [&](unsigned) {
             for (std::size_t i; (i = next++) < raw.size();) orderBucket(raw[i]);
@@ -172,12 +175,43 @@ std::uint64_t LazyColumn<T>::bytes(std::span<const Run> runs) const {
 }
 
 template <typename T>
+std::vector<std::size_t> LazyColumn<T>::lastLookedAt(std::span<const Run> runs,
+                                                     std::uint64_t bytes) const {
+    std::vector<std::size_t> chosen;
+    std::vector<bool> isChosen(buckets());
+    std::uint64_t left = bytes;
+    const auto choose = [&](std::size_t b) {
+        chosen.push_back(b);
+        isChosen[b] = true;
+        left -= std::min(left, bucketBytes(b));
+    };
+    const auto isThere = [&](std::size_t b) {
+        return state_[b].load(std::memory_order_acquire) == kOrdered;
+    };
+    forEachBucket(runs, [&](std::size_t b) {
+        if (isThere(b)) choose(b);
+    });
+    // As they were looked at by now, whatever others look at meanwhile.
+    std::vector<std::pair<std::uint64_t, std::size_t>> byLook;
+    for (std::size_t b = 0; b < buckets(); ++b)
+        if (isThere(b) && !isChosen[b])
+            byLook.emplace_back(lastLook_[b].load(std::memory_order_relaxed), b);
+    std::ranges::sort(byLook, std::greater());
+    for (const auto& [look, b] : byLook) {
+        if (bucketBytes(b) > left) break;
+        choose(b);
+    }
+    std::ranges::sort(chosen);
+    return chosen;
+}
+
+template <typename T>
 void LazyColumn<T>::takeOver(const LazyColumn& other, std::span<const Run> runs,
                              std::uint64_t bytes) {
-    const auto isThere = [&](std::size_t b) {
-        return other.state_[b].load(std::memory_order_acquire) == kOrdered;
-    };
-    const auto take = [&](std::size_t b) {
+    looks_.store(other.looks_.load());
+    const std::vector<std::size_t> taken = other.lastLookedAt(runs, bytes);
+    willFill(taken);
+    for (const std::size_t b : taken) {
         const std::uint64_t first = points_.begin[b], count = points_.begin[b + 1] - first;
         std::copy_n(other.points_.values.data() + first, count, points_.values.data() + first);
         std::copy_n(other.points_.gridIndex.data() + first, count,
@@ -185,24 +219,17 @@ void LazyColumn<T>::takeOver(const LazyColumn& other, std::span<const Run> runs,
         lastLook_[b].store(other.lastLook_[b].load(std::memory_order_relaxed));
         state_[b].store(kOrdered, std::memory_order_release);
         fetched_ += count;
-    };
-    looks_.store(other.looks_.load());
-    std::uint64_t taken = 0;
-    forEachBucket(runs, [&](std::size_t b) {
-        if (!isThere(b)) return;
-        take(b);
-        taken += bucketBytes(b);
-    });
-    // As they were looked at by now, whatever others look at meanwhile.
-    std::vector<std::pair<std::uint64_t, std::size_t>> byLook;
-    for (std::size_t b = 0; b < buckets(); ++b)
-        if (isThere(b) && state_[b].load() != kOrdered)
-            byLook.emplace_back(other.lastLook_[b].load(std::memory_order_relaxed), b);
-    std::ranges::sort(byLook, std::greater());
-    for (const auto& [look, b] : byLook) {
-        taken += bucketBytes(b);
-        if (taken > bytes) return;
-        take(b);
+    }
+}
+
+template <typename T>
+void LazyColumn<T>::willFill(std::span<const std::size_t> buckets) const {
+    for (std::size_t i = 0, next; i < buckets.size(); i = next) {
+        for (next = i + 1; next < buckets.size() && buckets[next] == buckets[next - 1] + 1;) ++next;
+        const std::uint64_t first = points_.begin[buckets[i]],
+                            count = points_.begin[buckets[next - 1] + 1] - first;
+        points_.values.willBeWritten(first, count);
+        points_.gridIndex.willBeWritten(first, count);
     }
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "timeseries/index/range_set.h"
 #include "timeseries/index/sorted_step.h"
@@ -69,6 +70,10 @@ class LazyColumn {
     std::size_t bucketAt(std::uint64_t point) const;
     void orderBucket(std::size_t bucket) const;
     void sortBucket(std::size_t bucket) const;
+    // What takeOver() takes of this one; they ascend.
+    std::vector<std::size_t> lastLookedAt(std::span<const Run> runs, std::uint64_t bytes) const;
+    // These buckets of the source, which ascend, will be there.
+    void willFill(std::span<const std::size_t> buckets) const;
     std::uint64_t bucketBytes(std::size_t bucket) const;
     template <typename Do>
     void forEachBucket(std::span<const Run> runs, const Do& what) const;  // each once
