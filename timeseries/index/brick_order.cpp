@@ -14,7 +14,8 @@ constexpr int kLowerBits = 8;  // of a place: tables that stay in the first-leve
 
 }  // namespace
 
-BrickOrder::BrickOrder(const std::array<std::uint32_t, 3>& size) : size_(size) {
+BrickOrder::BrickOrder(const std::array<std::uint32_t, 3>& size)
+    : along_(glm::uvec3(size[0], size[1], size[2])) {
     points_ = std::uint64_t{size[0]} * size[1] * size[2];
     std::array<int, 3> bits{};
     std::array<std::uint64_t, 3> bricks{};
@@ -81,7 +82,7 @@ BrickOrder::BrickOrder(const std::array<std::uint32_t, 3>& size) : size_(size) {
 
 std::uint32_t BrickOrder::code(std::uint32_t gridIndex) const {
     if (plain_) return gridIndex;
-    const auto at = indicesOf(gridIndex, glm::uvec3(size_[0], size_[1], size_[2]));
+    const glm::uvec3 at = along_(gridIndex);
     return part_[0][at.x] + part_[1][at.y] + part_[2][at.z];
 }
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "timeseries/grid/grid.h"
+
 namespace timeseries {
 
 // A bijection between grid indices (x fastest) and some of the codes below codes(). Where axes have
@@ -25,7 +27,7 @@ class BrickOrder {
     bool toGridIndices(std::uint32_t* codes, std::size_t count) const;
 
  private:
-    std::array<std::uint32_t, 3> size_;
+    IndicesAlong along_;
     std::uint64_t points_ = 0, codes_ = 0;
     bool plain_ = false;                              // a code is the grid index
     int brickBits_ = 0;                               // of a code, its place in the brick

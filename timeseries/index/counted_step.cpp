@@ -58,7 +58,7 @@ class CountedList {
         });
     }
     // REQUIRES: found.
-    EncodedBlock encode(std::uint64_t block, const BrickOrder& order) const {
+    void encode(std::uint64_t block, const BrickOrder& order, EncodedBlock& out) const {
         const std::uint64_t first = block * kStepBlock;
         const std::size_t count = std::min(kStepBlock, points() - first);
         std::vector<T> values(count);
@@ -70,7 +70,7 @@ class CountedList {
                       valueOfKey<T>(static_cast<Key>(key)));
             i = end;
         }
-        return encodeBlock<T>(values, {gridIndex_.data() + (first - first_), count}, order);
+        encodeBlock<T>(values, {gridIndex_.data() + (first - first_), count}, order, out);
     }
 
  private:
@@ -107,7 +107,8 @@ bool write(const Field& field, const std::string& about, ByteSink& sink,
     const BrickOrder order(facts.size);
     const auto blocks = writeBlocks(
         list.points(), [&](const Run& points) { list.find(points.first); },
-        [&](std::uint64_t block) { return list.encode(block, order); }, sink, goOn, threads);
+        [&](std::uint64_t block, EncodedBlock& out) { list.encode(block, order, out); }, sink, goOn,
+        threads);
     if (!blocks) return false;
     const Number least = numberOf(list.at(0)), greatest = numberOf(list.at(list.points() - 1));
     facts.statistics = {list.points(), field.grid->count() - list.points(), least, greatest, least,

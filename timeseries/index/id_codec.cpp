@@ -57,32 +57,28 @@ struct FreeEncoder {
 }  // namespace
 
 void encodeIds(std::span<const std::uint32_t> ids, Bytes& out) {
-    append(out, ids[0]);
-    const std::size_t sizeAt = out.size();
-    append(out, std::uint32_t{0});
-
-    std::vector<std::uint8_t> classes;
-    classes.reserve(ids.size() - 1);
-    Bytes rest;
-    BitWriter bits(rest);
-    for (std::size_t i = 1; i < ids.size(); ++i) {
-        const std::uint32_t gap = ids[i] - ids[i - 1] - 1, of = classOf(gap);
-        classes.push_back(static_cast<std::uint8_t>(of));
+    static thread_local const std::unique_ptr<ZSTD_CCtx, FreeEncoder> context(ZSTD_createCCtx());
+    if (!context) throw std::bad_alloc();
+    static thread_local std::vector<std::uint8_t> classes;
+    static thread_local Bytes packed, open;
+    classes.resize(ids.size() - 1);
+    open.clear();
+    BitWriter bits(open);
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+        const std::uint32_t gap = ids[i + 1] - ids[i] - 1, of = classOf(gap);
+        classes[i] = static_cast<std::uint8_t>(of);
         bits.put(gap - kTable[of].least, kTable[of].bits);
     }
     bits.end();
 
-    static thread_local const std::unique_ptr<ZSTD_CCtx, FreeEncoder> context(ZSTD_createCCtx());
-    if (!context) throw std::bad_alloc();
-    const std::size_t at = out.size();
-    out.resize(at + ZSTD_compressBound(classes.size()));
-    const std::size_t size = ZSTD_compressCCtx(context.get(), out.data() + at, out.size() - at,
+    packed.resize(ZSTD_compressBound(classes.size()));
+    const std::size_t size = ZSTD_compressCCtx(context.get(), packed.data(), packed.size(),
                                                classes.data(), classes.size(), kLevel);
     if (ZSTD_isError(size)) throw std::bad_alloc();  // there is room: nothing else can fail
-    out.resize(at + size);
-    const auto stored = static_cast<std::uint32_t>(size);
-    std::memcpy(out.data() + sizeAt, &stored, sizeof stored);
-    out.insert(out.end(), rest.begin(), rest.end());
+    append(out, ids[0]);
+    append(out, static_cast<std::uint32_t>(size));
+    out.insert(out.end(), packed.data(), packed.data() + size);
+    out.insert(out.end(), open.begin(), open.end());
 }
 
 bool decodeIds(std::span<const std::byte> from, std::span<std::uint32_t> ids) {

@@ -8,10 +8,11 @@ namespace {
 
 constexpr std::size_t kDictionaryHead = 5;  // how many there are, and of how many bits each
 
-template <typename Key>
-void pack(std::span<const Key> fields, int bits, Bytes& out) {
+template <typename Key, typename FieldOf>
+void pack(std::span<const Key> keys, const FieldOf& fieldOf, int bits, Bytes& out) {
+    out.reserve(out.size() + bytesOfFields(keys.size(), bits));
     BitWriter writer(out);
-    for (const Key field : fields) writer.put(field, bits);
+    for (const Key key : keys) writer.put(fieldOf(key), bits);
     writer.end();
 }
 
@@ -58,23 +59,20 @@ KeyLayout encodeKeys(std::span<const Key> keys, std::span<const Key> ascending, 
         return KeyLayout{codec, static_cast<std::uint8_t>(width), static_cast<std::uint8_t>(shift)};
     };
 
-    std::vector<Key> fields(keys.size());
     if (kDictionaryHead + bytesOfFields(distinct, bits) + bytesOfFields(keys.size(), places) >=
         bytesOfFields(keys.size(), bits)) {
-        std::ranges::transform(keys, fields.begin(), residual);
-        pack<Key>(fields, bits, out);
+        pack(keys, residual, bits, out);
         return layout(KeyCodec::Residual, bits);
     }
     std::vector<Key> dictionary(ascending.begin(), ascending.end());
     dictionary.erase(std::unique(dictionary.begin(), dictionary.end()), dictionary.end());
-    std::ranges::transform(keys, fields.begin(), [&](Key key) {
+    const auto placeOf = [&](Key key) {
         return static_cast<Key>(std::ranges::lower_bound(dictionary, key) - dictionary.begin());
-    });
-    std::ranges::transform(dictionary, dictionary.begin(), residual);
+    };
     append(out, static_cast<std::uint32_t>(distinct));
     append(out, static_cast<std::uint8_t>(bits));
-    pack<Key>(dictionary, bits, out);
-    pack<Key>(fields, places, out);
+    pack(std::span<const Key>(dictionary), residual, bits, out);
+    pack(keys, placeOf, places, out);
     return layout(KeyCodec::Dictionary, places);
 }
 

@@ -13,29 +13,32 @@
 namespace timeseries {
 namespace {
 
-// In the order of their codes, which is how ids are stored: codes and the keys that go with them.
+// The keys of a block's points by value, and by their codes, which is how both are stored.
 template <typename Key>
-struct InBrickOrder {
+struct BlockKeys {
+    std::vector<std::uint64_t> places;  // code << 32 | place in order of value
     std::vector<std::uint32_t> codes;
-    std::vector<Key> keys;
-};
+    std::vector<Key> ascending, byCode;
 
-template <typename T>
-InBrickOrder<OrderedKey<T>> inBrickOrder(std::span<const T> values,
-                                         std::span<const std::uint32_t> gridIndex,
-                                         const BrickOrder& order) {
-    const std::size_t n = values.size();
-    std::vector<std::uint64_t> places(n);  // code << 32 | place in order of value
-    for (std::size_t i = 0; i < n; ++i)
-        places[i] = std::uint64_t{order.code(gridIndex[i])} << 32 | i;
-    sortPacked(std::span(places));
-    InBrickOrder<OrderedKey<T>> out{std::vector<std::uint32_t>(n), std::vector<OrderedKey<T>>(n)};
-    for (std::size_t i = 0; i < n; ++i) {
-        out.codes[i] = static_cast<std::uint32_t>(places[i] >> 32);
-        out.keys[i] = orderedKey(values[static_cast<std::uint32_t>(places[i])]);
+    template <typename T>
+    void take(std::span<const T> values, std::span<const std::uint32_t> gridIndex,
+              const BrickOrder& order) {
+        const std::size_t n = values.size();
+        places.resize(n);
+        codes.resize(n);
+        ascending.resize(n);
+        byCode.resize(n);
+        for (std::size_t i = 0; i < n; ++i)
+            places[i] = std::uint64_t{order.code(gridIndex[i])} << 32 | i;
+        sortPacked(std::span(places));
+        std::ranges::transform(values, ascending.begin(),
+                               [](T value) { return orderedKey(value); });
+        for (std::size_t i = 0; i < n; ++i) {
+            codes[i] = static_cast<std::uint32_t>(places[i] >> 32);
+            byCode[i] = ascending[static_cast<std::uint32_t>(places[i])];
+        }
     }
-    return out;
-}
+};
 
 // The bits of a number that was one of the type.
 std::uint64_t bitsOf(ValueType type, const Number& number) {
@@ -85,23 +88,23 @@ StepSection put(std::span<const std::byte> bytes, std::uint64_t& at, ByteSink& s
 }  // namespace
 
 template <typename T>
-EncodedBlock encodeBlock(std::span<const T> values, std::span<const std::uint32_t> gridIndex,
-                         const BrickOrder& order) {
+void encodeBlock(std::span<const T> values, std::span<const std::uint32_t> gridIndex,
+                 const BrickOrder& order, EncodedBlock& out) {
     using Key = OrderedKey<T>;
-    EncodedBlock out;
-    const auto brick = inBrickOrder(values, gridIndex, order);
-    std::vector<Key> ascending(values.size());
-    std::ranges::transform(values, ascending.begin(), [](T value) { return orderedKey(value); });
-    encodeIds(brick.codes, out.ids);
-    out.entry.layout = encodeKeys<Key>(brick.keys, ascending, out.keys);
-    out.entry.least = ascending.front();
-    out.entry.greatest = ascending.back();
+    static thread_local BlockKeys<Key> keys;
+    keys.take(values, gridIndex, order);
+    out.ids.clear();
+    out.keys.clear();
+    encodeIds(keys.codes, out.ids);
+    out.entry = {};
+    out.entry.layout = encodeKeys<Key>(keys.byCode, keys.ascending, out.keys);
+    out.entry.least = keys.ascending.front();
+    out.entry.greatest = keys.ascending.back();
     out.entry.count = static_cast<std::uint32_t>(values.size());
     out.entry.idsBytes = static_cast<std::uint32_t>(out.ids.size());
     out.entry.keysBytes = static_cast<std::uint32_t>(out.keys.size());
     out.entry.idsSum = static_cast<std::uint32_t>(sumOfBytes(out.ids));
     out.entry.keysSum = static_cast<std::uint32_t>(sumOfBytes(out.keys));
-    return out;
 }
 
 std::uint64_t placeBlocks(std::span<StepBlock> blocks, std::uint64_t at) {
@@ -145,9 +148,9 @@ void finishStep(const StepFacts& facts, std::span<const StepBlock> directory, st
     sink.write(0, page);
 }
 
-#define ISOCHRON_TYPE(T)                                                                  \
-    template EncodedBlock encodeBlock(std::span<const T>, std::span<const std::uint32_t>, \
-                                      const BrickOrder&);
+#define ISOCHRON_TYPE(T)                                                          \
+    template void encodeBlock(std::span<const T>, std::span<const std::uint32_t>, \
+                              const BrickOrder&, EncodedBlock&);
 ISOCHRON_EACH_TYPE(ISOCHRON_TYPE)
 #undef ISOCHRON_TYPE
 

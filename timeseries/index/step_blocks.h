@@ -23,12 +23,16 @@ struct EncodedBlock {
     StepBlock entry;  // it lies nowhere yet
 };
 
-// REQUIRES: at least one point, at most kStepBlock, by value, ties by grid index.
+// Into `out`, whose memory it uses again. REQUIRES: at least one point, at most kStepBlock, by
+// value, ties by grid index.
 template <typename T>
-EncodedBlock encodeBlock(std::span<const T> values, std::span<const std::uint32_t> gridIndex,
-                         const BrickOrder& order);
+void encodeBlock(std::span<const T> values, std::span<const std::uint32_t> gridIndex,
+                 const BrickOrder& order, EncodedBlock& out);
 
 std::array<std::uint32_t, 3> sizeOf(const Grid& grid);
+
+// Makes a block of a list: its number, and into what.
+using Encode = std::function<void(std::uint64_t, EncodedBlock&)>;
 
 // Writes a list of so many points: `encode` makes a block of it, on several threads at once, of
 // those that `find` was last asked for, blocks of a part of the list. Nothing: goOn() said no.
@@ -38,9 +42,8 @@ struct WrittenBlocks {
 };
 std::optional<WrittenBlocks> writeBlocks(std::uint64_t points,
                                          const std::function<void(const Run&)>& find,
-                                         const std::function<EncodedBlock(std::uint64_t)>& encode,
-                                         ByteSink& sink, const std::function<bool(double)>& goOn,
-                                         unsigned threads);
+                                         const Encode& encode, ByteSink& sink,
+                                         const std::function<bool(double)>& goOn, unsigned threads);
 
 // Gives blocks their places, one after the other from byte `at` on: all of a step, or as many as
 // lie together, from a multiple of kBlocksTogether on. Returns the byte behind them.

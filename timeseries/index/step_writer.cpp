@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "timeseries/index/kept_blocks.h"
 #include "timeseries/index/step_blocks.h"
 #include "timeseries/index/step_header.h"
 
@@ -15,34 +16,36 @@ std::array<std::uint32_t, 3> sizeOf(const Grid& grid) {
 
 std::optional<WrittenBlocks> writeBlocks(std::uint64_t points,
                                          const std::function<void(const Run&)>& find,
-                                         const std::function<EncodedBlock(std::uint64_t)>& encode,
-                                         ByteSink& sink, const std::function<bool(double)>& goOn,
+                                         const Encode& encode, ByteSink& sink,
+                                         const std::function<bool(double)>& goOn,
                                          unsigned threads) {
     const std::uint64_t blocks = (points + kStepBlock - 1) / kStepBlock;
     std::vector<StepBlock> directory;
     directory.reserve(blocks);
     std::uint64_t at = kHeaderBytes;
-    Bytes together;
+    const unsigned parts = threadsFor(std::min(blocks, kBlocksTogether), 1, threads);
+    std::vector<BlockMemory> memory(parts);
+    std::vector<KeptBlock> kept(std::min(blocks, kBlocksTogether));
+    BlockWriter writer(sink, threads);
     for (std::uint64_t first = 0; first < blocks; first += kBlocksTogether) {
         if (goOn && !goOn(static_cast<double>(first) / static_cast<double>(blocks)))
             return std::nullopt;
         const std::uint64_t count = std::min(kBlocksTogether, blocks - first);
         const std::uint64_t from = first * kStepBlock;
         find({from, std::min(points, (first + count) * kStepBlock) - from});
-        std::vector<EncodedBlock> encoded(count);
         std::atomic<std::uint64_t> next{0};
-        sharing(threadsFor(count, 1, threads), [&](unsigned) {
-            for (std::uint64_t b; (b = next++) < count;) encoded[b] = encode(first + b);
+        sharing(parts, [&](unsigned part) {
+            memory[part].clear();
+            EncodedBlock block;
+            for (std::uint64_t b; (b = next++) < count;) {
+                encode(first + b, block);
+                kept[b] = memory[part].keep(block);
+            }
         });
-        together.clear();
-        for (const EncodedBlock& block : encoded) {
-            together.insert(together.end(), block.ids.begin(), block.ids.end());
-            directory.push_back(block.entry);
-        }
-        for (const EncodedBlock& block : encoded)
-            together.insert(together.end(), block.keys.begin(), block.keys.end());
-        sink.write(at, together);
-        at = placeBlocks(std::span(directory).subspan(first), at);
+        for (std::uint64_t b = 0; b < count; ++b) directory.push_back(kept[b].entry);
+        const auto places = std::span(directory).subspan(first);
+        at = placeBlocks(places, at);
+        writer.write(std::span(kept).first(count), places);
     }
     return WrittenBlocks{std::move(directory), at};
 }
@@ -52,13 +55,13 @@ bool writeStep(const SortedStep& step, const std::string& about, ByteSink& sink,
     const std::array<std::uint32_t, 3> size = sizeOf(step.grid());
     const BrickOrder order(size);
     Columns columns;
-    const auto encode = [&](std::uint64_t block) {
+    const auto encode = [&](std::uint64_t block, EncodedBlock& out) {
         const std::uint64_t from = block * kStepBlock;
         const std::uint64_t points = std::min(kStepBlock, step.size() - from);
-        return std::visit(
+        std::visit(
             [&]<typename T>(std::span<const T> values) {
-                return encodeBlock<T>(values.subspan(from, points),
-                                      columns.gridIndex.subspan(from, points), order);
+                encodeBlock<T>(values.subspan(from, points),
+                               columns.gridIndex.subspan(from, points), order, out);
             },
             columns.values);
     };

@@ -13,6 +13,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "timeseries/grid/pages.h"
+
 namespace timeseries {
 
 // What one rank failed at, thrown by all of them; what() is that rank's sentence.
@@ -46,11 +48,11 @@ class Ranks {
     // What all have, in the order of ranks: less than 2 GiB.
     template <typename T>
     std::vector<T> gather(std::span<const T> mine) const;
-    // Of any size. To rank r goes mine[ends[r - 1], ends[r]); what comes, in the order of ranks,
-    // and where each one's ends.
+    // Of any size. To each other rank r goes mine[ends[r - 1], ends[r]); what comes from the
+    // others, in the order of ranks, and where each one's ends.
     template <typename T>
-    std::vector<T> exchange(std::span<const T> mine, std::span<const std::uint64_t> ends,
-                            std::vector<std::uint64_t>& cameTo) const;
+    PageVector<T> exchange(std::span<const T> mine, std::span<const std::uint64_t> ends,
+                           std::vector<std::uint64_t>& cameTo) const;
     // Runs it everywhere; when it throws anywhere, throws RanksError everywhere. What it calls of
     // this class must throw everywhere, or nowhere.
     void agreed(const std::function<void()>& stage) const;
@@ -77,18 +79,19 @@ std::vector<T> Ranks::gather(std::span<const T> mine) const {
 }
 
 template <typename T>
-std::vector<T> Ranks::exchange(std::span<const T> mine, std::span<const std::uint64_t> ends,
-                               std::vector<std::uint64_t>& cameTo) const {
+PageVector<T> Ranks::exchange(std::span<const T> mine, std::span<const std::uint64_t> ends,
+                              std::vector<std::uint64_t>& cameTo) const {
     static_assert(std::is_trivially_copyable_v<T>);
     cameTo = countsToMe(ends);
+    cameTo[rank_] = 0;
     for (std::size_t r = 1; r < cameTo.size(); ++r) cameTo[r] += cameTo[r - 1];
-    std::vector<T> came;
+    PageVector<T> came;
     agreed([&] { came.resize(cameTo.back()); });
     const auto part = [](auto all, std::span<const std::uint64_t> to, unsigned r) {
         const std::uint64_t begin = r == 0 ? 0 : to[r - 1];
         return all.subspan(begin, to[r] - begin);
     };
-    for (unsigned away = 0; away < size_; ++away) {
+    for (unsigned away = 1; away < size_; ++away) {
         const unsigned to = (rank_ + away) % size_, from = (rank_ + size_ - away) % size_;
         swap(std::as_bytes(part(mine, ends, to)), to,
              std::as_writable_bytes(part(std::span(came), cameTo, from)), from);

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "timeseries/grid/pages.h"
 #include "timeseries/grid/with_type.h"
+#include "timeseries/index/joined_lists.h"
+#include "timeseries/index/kept_blocks.h"
 #include "timeseries/index/pair_sort.h"
 #include "timeseries/index/step_blocks.h"
 #include "timeseries/index/step_header.h"
@@ -18,44 +21,46 @@ namespace {
 // Consecutive points of the list of all ranks' points, on the rank that has them.
 template <typename T>
 struct ListPart {
+    using Point = PackedPoint<T>;
     std::uint64_t first = 0, points = 0, missing = 0;  // of all ranks, but for `first`
-    std::vector<PackedPoint<T>> mine;                  // ascending
+    PageVector<Point> own, came;  // of this rank's part of the grid, and of the others'
+    JoinedLists<Point> mine;      // of both
 };
 
 // The points of a part, by value, with their indices in the whole grid: within a box these ascend
 // as its own do, so that ties stay in order.
 template <typename T>
-std::vector<PackedPoint<T>> sortedOf(const SortedStep& step, const GridBox& box,
-                                     const std::array<std::uint32_t, 3>& size) {
+PageVector<PackedPoint<T>> sortedOf(const SortedStep& step, const GridBox& box,
+                                    const std::array<std::uint32_t, 3>& size) {
     const Columns columns = step.columns();
     const auto values = std::get<std::span<const T>>(columns.values);
-    const glm::vec<3, std::uint64_t> boxSize(box.size[0], box.size[1], box.size[2]);
-    std::vector<PackedPoint<T>> points(values.size());
-    inParts(points.size(), threadsFor(points.size(), 1 << 16),
-            [&](std::size_t first, std::size_t last) {
-                for (std::size_t i = first; i < last; ++i) {
-                    const auto at = indicesOf<std::uint64_t>(columns.gridIndex[i], boxSize);
-                    const std::uint64_t x = at.x + box.first[0], y = at.y + box.first[1],
-                                        z = at.z + box.first[2];
-                    points[i] =
-                        packPoint<T>(orderedKey(values[i]),
-                                     static_cast<std::uint32_t>(x + size[0] * (y + size[1] * z)));
-                }
-            });
+    PageVector<PackedPoint<T>> points(values.size());
+    const auto put = [&](auto wholeIndex) {
+        inParts(points.size(), threadsFor(points.size(), 1 << 16),
+                [&](std::size_t first, std::size_t last) {
+                    for (std::size_t i = first; i < last; ++i)
+                        points[i] =
+                            packPoint<T>(orderedKey(values[i]), wholeIndex(columns.gridIndex[i]));
+                });
+    };
+    const glm::uvec3 from(box.first[0], box.first[1], box.first[2]),
+        boxSize(box.size[0], box.size[1], box.size[2]);
+    const std::uint32_t first = from.x + size[0] * (from.y + size[1] * from.z);
+    if (boxSize.x == size[0] && (boxSize.y == size[1] || boxSize.z == 1))
+        put([&](std::uint32_t index) { return first + index; });
+    else
+        put([&, along = IndicesAlong(boxSize)](std::uint32_t index) {
+            const glm::uvec3 at = along(index);
+            return first + at.x + size[0] * (at.y + size[1] * at.z);
+        });
     return points;
-}
-
-template <typename Point>
-std::uint64_t countBelow(const std::vector<Point>& points, const Point& point) {
-    return static_cast<std::uint64_t>(std::ranges::lower_bound(points, point, std::less{}) -
-                                      points.begin());
 }
 
 // Where each rank's part of the list ends in this rank's points: all get as many blocks, but for
 // one. Of each end the point that stands there is found bit by bit, its key first, for all ends at
 // once, by how many points are less on all ranks.
 template <typename T>
-std::vector<std::uint64_t> endsOf(const Ranks& ranks, const std::vector<PackedPoint<T>>& mine,
+std::vector<std::uint64_t> endsOf(const Ranks& ranks, std::span<const PackedPoint<T>> mine,
                                   std::uint64_t points) {
     const std::uint64_t blocks = (points + kStepBlock - 1) / kStepBlock;
     const std::size_t n = ranks.size();
@@ -63,8 +68,10 @@ std::vector<std::uint64_t> endsOf(const Ranks& ranks, const std::vector<PackedPo
     for (std::size_t r = 0; r < n; ++r)
         wanted[r] = std::min(points, blocks * (r + 1) / n * kStepBlock);
     const auto found = [&](std::size_t r) {
-        return countBelow(mine, packPoint<T>(static_cast<OrderedKey<T>>(keys[r]),
-                                             static_cast<std::uint32_t>(indices[r])));
+        const auto point = packPoint<T>(static_cast<OrderedKey<T>>(keys[r]),
+                                        static_cast<std::uint32_t>(indices[r]));
+        return static_cast<std::uint64_t>(std::ranges::lower_bound(mine, point, std::less{}) -
+                                          mine.begin());
     };
     const auto search = [&](std::vector<std::uint64_t>& digits, int bits) {
         for (int bit = bits; bit-- > 0;) {
@@ -86,8 +93,8 @@ std::vector<std::uint64_t> endsOf(const Ranks& ranks, const std::vector<PackedPo
 
 // Sorted pieces, one behind the other, into one; `ends` are theirs. Pairs of neighbours first.
 template <typename Point>
-void merge(std::vector<Point>& points, std::vector<std::uint64_t> ends) {
-    std::vector<Point> merged(ends.size() > 1 ? points.size() : 0);
+void merge(PageVector<Point>& points, std::vector<std::uint64_t> ends) {
+    PageVector<Point> merged(ends.size() > 1 ? points.size() : 0);
     while (ends.size() > 1) {
         std::vector<std::uint64_t> next;
         for (std::size_t i = 0; i < ends.size(); i += 2) {
@@ -108,20 +115,25 @@ template <typename T>
 ListPart<T> listOf(const Ranks& ranks, Field values, const GridBox& box,
                    const std::array<std::uint32_t, 3>& size) {
     ListPart<T> part;
-    std::vector<PackedPoint<T>> mine;
     ranks.agreed([&] {
         if (box.count() == 0) return;
         const SortedStep step = SortedStep::build(std::move(values));
         part.missing = step.statistics().missing;
-        mine = sortedOf<T>(step, box, size);
+        part.own = sortedOf<T>(step, box, size);
     });
     part.missing = ranks.sum(part.missing);
-    part.points = ranks.sum(mine.size());
-    const auto ends = endsOf<T>(ranks, mine, part.points);
+    part.points = ranks.sum(part.own.size());
+    const auto ends = endsOf<T>(ranks, part.own, part.points);
     std::vector<std::uint64_t> came;
-    part.mine = ranks.exchange<PackedPoint<T>>(mine, ends, came);
-    mine = std::vector<PackedPoint<T>>();
-    ranks.agreed([&] { merge(part.mine, std::move(came)); });
+    part.came = ranks.exchange<PackedPoint<T>>(part.own, ends, came);
+    const auto all = std::span(part.own);
+    const std::uint64_t first = ranks.isFirst() ? 0 : ends[ranks.rank() - 1];
+    const auto behind = all.subspan(ends[ranks.rank()]);
+    giveBack(all.data(), first * sizeof all[0]);
+    giveBack(behind.data(), behind.size_bytes());
+    came.erase(came.begin() + ranks.rank());
+    ranks.agreed([&] { merge(part.came, std::move(came)); });
+    part.mine = {all.subspan(first, ends[ranks.rank()] - first), part.came};
     part.first = ranks.sumBefore(part.mine.size());
     return part;
 }
@@ -144,7 +156,7 @@ Run finiteOf(const Ranks& ranks, const ListPart<T>& part) {
     if constexpr (std::is_floating_point_v<T>) {
         constexpr T kMost = std::numeric_limits<T>::max();
         const auto below = [&](OrderedKey<T> key) {
-            return ranks.sum(countBelow(part.mine, packPoint<T>(key, 0)));
+            return ranks.sum(part.mine.countBelow(packPoint<T>(key, 0)));
         };
         const std::uint64_t first = below(orderedKey(-kMost));
         return {first, below(static_cast<OrderedKey<T>>(orderedKey(kMost) + 1)) - first};
@@ -176,69 +188,59 @@ StepFacts factsOf(const Ranks& ranks, const ListPart<T>& part, const SharedStep&
     return facts;
 }
 
+struct KeptBlocks {
+    std::vector<KeptBlock> blocks;
+    std::vector<BlockMemory> memory;  // a thread each
+};
+
 template <typename T>
-std::vector<EncodedBlock> encode(const ListPart<T>& part, const BrickOrder& order) {
-    const std::span<const PackedPoint<T>> mine(part.mine);
-    std::vector<EncodedBlock> blocks((mine.size() + kStepBlock - 1) / kStepBlock);
+KeptBlocks encode(const ListPart<T>& part, const BrickOrder& order) {
+    const std::uint64_t all = part.mine.size();
+    KeptBlocks kept;
+    kept.blocks.resize((all + kStepBlock - 1) / kStepBlock);
+    kept.memory.resize(threadsFor(kept.blocks.size(), 1));
     std::atomic<std::size_t> next{0};
-    sharing(threadsFor(blocks.size(), 1), [&](unsigned) {
+    sharing(static_cast<unsigned>(kept.memory.size()), [&](unsigned thread) {
+        std::vector<PackedPoint<T>> points(kStepBlock);
         std::vector<T> values(kStepBlock);
         std::vector<std::uint32_t> gridIndex(kStepBlock);
-        for (std::size_t b; (b = next++) < blocks.size();) {
-            const auto points = mine.subspan(
-                b * kStepBlock, std::min<std::size_t>(kStepBlock, mine.size() - b * kStepBlock));
-            const auto some = std::span(values).first(points.size());
-            const auto theirs = std::span(gridIndex).first(points.size());
-            unpackPoints<T>(points, some, theirs);
-            blocks[b] = encodeBlock<T>(some, theirs, order);
+        EncodedBlock block;
+        for (std::size_t b; (b = next++) < kept.blocks.size();) {
+            const std::size_t count = std::min(kStepBlock, all - b * kStepBlock);
+            const auto these = std::span(points).first(count);
+            part.mine.copy(b * kStepBlock, these);
+            const auto some = std::span(values).first(count);
+            const auto theirs = std::span(gridIndex).first(count);
+            unpackPoints<T>(these, some, theirs);
+            encodeBlock<T>(some, theirs, order, block);
+            kept.blocks[b] = kept.memory[thread].keep(block);
         }
     });
-    return blocks;
-}
-
-// Each block where the directory says; those that lie together at once.
-void writeBlocks(const std::vector<EncodedBlock>& blocks, std::span<const StepBlock> places,
-                 ByteSink& sink) {
-    Bytes together;
-    const auto write = [&](auto partOf, auto placeOf) {
-        std::uint64_t at = 0;
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
-            if (together.empty()) at = placeOf(places[b]);
-            const Bytes& part = partOf(blocks[b]);
-            together.insert(together.end(), part.begin(), part.end());
-            if (b + 1 < blocks.size() && placeOf(places[b + 1]) == at + together.size()) continue;
-            sink.write(at, together);
-            together.clear();
-        }
-    };
-    write([](const EncodedBlock& block) -> const Bytes& { return block.ids; },
-          [](const StepBlock& block) { return block.idsAt; });
-    write([](const EncodedBlock& block) -> const Bytes& { return block.keys; },
-          [](const StepBlock& block) { return block.keysAt; });
+    return kept;
 }
 
 template <typename T>
 void writeList(const Ranks& ranks, ListPart<T> part, const SharedStep& step, WholeFile* file) {
     const StepFacts facts = factsOf(ranks, part, step);
-    std::vector<EncodedBlock> blocks;
-    ranks.agreed([&] { blocks = encode(part, BrickOrder(step.size)); });
-    part.mine = std::vector<PackedPoint<T>>();
+    KeptBlocks kept;
+    ranks.agreed([&] { kept = encode(part, BrickOrder(step.size)); });
+    part = ListPart<T>();
     std::vector<StepBlock> entries;
-    for (const EncodedBlock& block : blocks) entries.push_back(block.entry);
+    for (const KeptBlock& block : kept.blocks) entries.push_back(block.entry);
     std::vector<StepBlock> directory = ranks.gather<StepBlock>(entries);
-    const std::uint64_t before = ranks.sumBefore(blocks.size());
+    const std::uint64_t before = ranks.sumBefore(entries.size());
     const std::uint64_t end = placeBlocks(directory, kHeaderBytes);
+    const auto write = [&](ByteSink& sink) {
+        BlockWriter(sink, sharingThreads())
+            .write(kept.blocks, std::span(directory).subspan(before, entries.size()));
+    };
 
     const std::string name = ranks.fromFirst(file ? file->nameOfNow().string() : "");
     ranks.agreed([&] {
-        const auto places = std::span<const StepBlock>(directory).subspan(before, blocks.size());
-        if (file) {
-            writeBlocks(blocks, places, *file);
-        } else {
-            FilePart beside(name);
-            writeBlocks(blocks, places, beside);
-            beside.flush();
-        }
+        if (file) return write(*file);
+        FilePart beside(name);
+        write(beside);
+        beside.flush();
     });
     ranks.agreed([&] {
         if (file) finishStep(facts, directory, end, *file);
