@@ -25,7 +25,7 @@ class BytesWritten : public timeseries::ByteSink {
     std::vector<std::byte> bytes;
 };
 
-class BytesRead final : public timeseries::ByteSource {
+class BytesRead : public timeseries::ByteSource {
  public:
     explicit BytesRead(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
     std::string name() const override { return "bytes"; }

@@ -15,6 +15,15 @@ namespace {
 
 constexpr std::uint64_t kWorthAThread = 1 << 16;  // points to put in order
 
+// what(first, count) for those that follow each other, of some that ascend.
+template <typename What>
+void forEachStretch(std::span<const std::size_t> numbers, const What& what) {
+    for (std::size_t i = 0, next; i < numbers.size(); i = next) {
+        for (next = i + 1; next < numbers.size() && numbers[next] == numbers[next - 1] + 1;) ++next;
+        what(numbers[i], next - i);
+    }
+}
+
 }  // namespace
 
 template <typename T>
@@ -85,8 +94,9 @@ void LazyColumn<T>::order(const Run& run) const {
             points += points_.begin[b + 1] - points_.begin[b];
         }
     std::atomic<std::size_t> next{0};
-    if (source_ && !raw.empty()) {
-        source_->willNeed(raw.front(), raw.back() - raw.front() + 1);
+    if (source_) {
+        forEachStretch(
+            raw, [&](std::size_t first, std::size_t count) { source_->willNeed(first, count); });
         willFill(raw);
     }
     if (!raw.empty())
@@ -224,13 +234,12 @@ void LazyColumn<T>::takeOver(const LazyColumn& other, std::span<const Run> runs,
 
 template <typename T>
 void LazyColumn<T>::willFill(std::span<const std::size_t> buckets) const {
-    for (std::size_t i = 0, next; i < buckets.size(); i = next) {
-        for (next = i + 1; next < buckets.size() && buckets[next] == buckets[next - 1] + 1;) ++next;
-        const std::uint64_t first = points_.begin[buckets[i]],
-                            count = points_.begin[buckets[next - 1] + 1] - first;
-        points_.values.willBeWritten(first, count);
-        points_.gridIndex.willBeWritten(first, count);
-    }
+    forEachStretch(buckets, [&](std::size_t bucket, std::size_t count) {
+        const std::uint64_t first = points_.begin[bucket],
+                            points = points_.begin[bucket + count] - first;
+        points_.values.willBeWritten(first, points);
+        points_.gridIndex.willBeWritten(first, points);
+    });
 }
 
 template <typename T>

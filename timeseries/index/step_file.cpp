@@ -168,9 +168,18 @@ const BrickOrder& StepFile::order() const {
 }
 
 void StepFile::willNeed(std::size_t firstBlock, std::size_t blocks) const {
-    if (blocks == 0) return;
-    const StepBlock &first = blocks_[firstBlock], &last = blocks_[firstBlock + blocks - 1];
-    bytes_->willNeed(first.idsAt, last.keysAt + last.keysBytes - first.idsAt);
+    // Between the ids of blocks and their keys lie those of others.
+    const auto some = std::span(blocks_).subspan(firstBlock, blocks);
+    const auto expect = [&](auto at, auto bytes) {
+        for (std::size_t i = 0, next; i < some.size(); i = next) {
+            std::uint64_t end = some[i].*at;
+            for (next = i; next < some.size() && some[next].*at == end; ++next)
+                end += some[next].*bytes;
+            bytes_->willNeed(some[i].*at, end - some[i].*at);
+        }
+    };
+    expect(&StepBlock::idsAt, &StepBlock::idsBytes);
+    expect(&StepBlock::keysAt, &StepBlock::keysBytes);
 }
 
 template <typename Key>
