@@ -86,13 +86,21 @@ TEST(Pages, WhatWillBeWrittenComesInLargePagesThatItFillsByAQuarterAtLeast) {
         EXPECT_EQ(may[page * 512], expected) << page;
         EXPECT_EQ(may[page * 512 + 511], expected) << page;
     }
-    // At either end it stays within the memory.
-    pages.willBeWritten(0, kBytes);
-    const auto count = kBytes / 4096;
-    const std::vector<bool> beside = mayBeLarge(base - 4096 * 512, 512);
-    EXPECT_TRUE(std::ranges::none_of(beside, [](bool is) { return is; }));
-    std::fill_n(base, kBytes, std::uint8_t{3});
-    EXPECT_EQ(base[count * 4096 - 1], 3);
+}
+
+TEST(Pages, WhatWillBeWrittenLeavesWhatLiesBesideItAlone) {
+    constexpr std::size_t kLarge = std::size_t{2} << 20;
+    const Pages<std::uint8_t> pages(10 * kLarge, Filled::Sparsely);
+    std::uint8_t* const base = pages.data();
+    if (mayBeLarge(base, 1).empty()) GTEST_SKIP() << "the system has no large pages to ask for";
+    // Of this memory a part, from an eighth of a large page on to an eighth before the end of one.
+    std::uint8_t* const first =
+        base + (kLarge - reinterpret_cast<std::uintptr_t>(base) % kLarge) % kLarge;
+    const std::size_t bytes = 6 * kLarge - kLarge / 4;
+    willBeWritten(first + kLarge / 8, bytes, 0, bytes);
+    const std::vector<bool> may = mayBeLarge(first, 6 * 512);
+    for (std::size_t page = 0; page < 6; ++page)
+        EXPECT_EQ(may[page * 512 + 256], page > 0 && page < 5) << page;
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -52,6 +51,19 @@ TEST(StoredColumn, AsksForTheBytesOfBlocksThatAreNotThereAndForNoOthers) {
     asked.clear();
     column->order({2 * kStepBlock, 4 * kStepBlock});
     EXPECT_TRUE(asked.empty());
+}
+
+TEST(StoredColumn, AsksForNothingWhereBlocksHaveNothing) {
+    const auto grid = tests::gridOf({64, 64, 16});  // two blocks of one value, which need no keys
+    const SortedStep step = tests::stepOf(grid, [](std::size_t) { return 1; });
+    Asked asked;
+    const auto file = std::make_shared<const StepFile>(
+        std::make_unique<const Asking>(tests::written(step), asked));
+    const auto blocks = file->blocks();
+    ASSERT_EQ(blocks.size(), 2u);
+    ASSERT_EQ(blocks[0].keysBytes, 0u);
+    storedColumn<float>(file, {}, 1)->orderAll();
+    EXPECT_EQ(asked, (Asked{{blocks[0].idsAt, blocks[0].idsBytes + blocks[1].idsBytes}}));
 }
 
 }  // namespace

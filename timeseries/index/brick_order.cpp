@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "timeseries/grid/grid.h"
-
 namespace timeseries {
 namespace {
 

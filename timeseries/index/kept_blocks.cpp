@@ -7,18 +7,18 @@
 namespace timeseries {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{8} << 20;  // more than any block has
-constexpr std::uint64_t kMostTogether = std::uint64_t{64} << 20;
+// More than any block has; of a small list little is taken.
+constexpr std::size_t kFirstPiece = std::size_t{1} << 20, kPiece = std::size_t{8} << 20;
 constexpr std::size_t kPiecesWorthAThread = 64;  // pieces of some 50 KB
 
 }  // namespace
 
 std::span<const std::byte> BlockMemory::copyOf(const Bytes& bytes) {
-    if (used_ + bytes.size() > kPiece) {
+    if (used_ + bytes.size() > (piece_ == 0 ? kFirstPiece : kPiece)) {
         ++piece_;
         used_ = 0;
     }
-    if (piece_ == pieces_.size()) pieces_.emplace_back(kPiece);
+    if (piece_ == pieces_.size()) pieces_.emplace_back(piece_ == 0 ? kFirstPiece : kPiece);
     std::byte* const at = pieces_[piece_].data() + used_;
     used_ += bytes.size();
     std::ranges::copy(bytes, at);
@@ -36,15 +36,18 @@ void BlockMemory::clear() {
 
 void BlockWriter::write(std::span<const KeptBlock> blocks, std::span<const StepBlock> places) {
     std::vector<Piece> pieces;
+    const auto add = [&](std::uint64_t at, std::span<const std::byte> bytes) {
+        if (!bytes.empty()) pieces.push_back({at, bytes});  // keys of one value have none
+    };
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-        pieces.push_back({places[b].idsAt, blocks[b].ids});
-        pieces.push_back({places[b].keysAt, blocks[b].keys});
+        add(places[b].idsAt, blocks[b].ids);
+        add(places[b].keysAt, blocks[b].keys);
     }
     std::ranges::sort(pieces, {}, &Piece::at);
     for (std::size_t first = 0, end; first < pieces.size(); first = end) {
         std::uint64_t behind = pieces[first].at;
         for (end = first; end < pieces.size() && pieces[end].at == behind &&
-                          behind - pieces[first].at < kMostTogether;
+                          behind - pieces[first].at < mostTogether_;
              ++end)
             behind += pieces[end].bytes.size();
         writeTogether(std::span(pieces).subspan(first, end - first));

@@ -33,7 +33,10 @@ class BlockMemory {
 // pages than for many: half the time of one (measured, where a page takes 12 us).
 class BlockWriter {
  public:
-    BlockWriter(ByteSink& sink, unsigned threads) : sink_(sink), threads_(threads) {}
+    // No write begins with so many bytes before it that it could go with: memory is held for it.
+    BlockWriter(ByteSink& sink, unsigned threads,
+                std::uint64_t mostTogether = std::uint64_t{64} << 20)
+        : sink_(sink), threads_(threads), mostTogether_(mostTogether) {}
     void write(std::span<const KeptBlock> blocks, std::span<const StepBlock> places);
 
  private:
@@ -45,6 +48,7 @@ class BlockWriter {
 
     ByteSink& sink_;
     unsigned threads_;
+    std::uint64_t mostTogether_;
     PageVector<std::byte> together_;
 };
 

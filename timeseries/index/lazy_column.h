@@ -57,7 +57,9 @@ class LazyColumn {
     // How many points have smaller keys; as find().
     std::uint64_t below(OrderedKey<T> key) const;
 
-    std::uint64_t bytes() const;  // when all pages are there; with a source, of those that are
+    // When all pages are there; with a source, of the points that are, which in large pages may
+    // take up to twice as much.
+    std::uint64_t bytes() const;
     // What the buckets of these runs take when they are there.
     std::uint64_t bytes(std::span<const Run> runs) const;
     std::uint64_t sortedBuckets() const;  // so far

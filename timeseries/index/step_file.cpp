@@ -175,7 +175,7 @@ void StepFile::willNeed(std::size_t firstBlock, std::size_t blocks) const {
             std::uint64_t end = some[i].*at;
             for (next = i; next < some.size() && some[next].*at == end; ++next)
                 end += some[next].*bytes;
-            bytes_->willNeed(some[i].*at, end - some[i].*at);
+            if (end > some[i].*at) bytes_->willNeed(some[i].*at, end - some[i].*at);
         }
     };
     expect(&StepBlock::idsAt, &StepBlock::idsBytes);

@@ -56,8 +56,8 @@ struct isochron_step {
 };
 
 /* Collective over `comm`. The boxes of all ranks are the whole grid, each point in one of them.
- * Takes about 20 bytes a point of the box (40 of types of 8 bytes) while it runs, and keeps
- * nothing.
+ * Takes about 20 bytes a point (40 of types of 8 bytes) of the box, or of a rank's share of all
+ * points where that is more, while it runs, and keeps a few MB a thread.
  *
  * `path` (end it in .isostep) is replaced when all is on the disk: who opens it finds the old file
  * or the new one. What a killed run leaves beside it ends in .unfinished. All ranks must see the

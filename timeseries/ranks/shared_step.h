@@ -31,9 +31,9 @@ std::string flawOf(const Ranks& ranks, const GridBox& mine,
 
 // Collective. `values` is this rank's part, in the order of its box; its grid may be null. It is
 // taken, for memory's sake: at most 16 bytes a point of it, 32 of types of 8 bytes, are held
-// beside. The same type on all ranks. `file`: the first rank's, which has yet to finish() it; null
-// on all others, which write beside it under its name of now. REQUIRES: no flawOf(). Throws
-// RanksError, everywhere.
+// beside, or of its share of the list where that is more, and some MB a thread. The same type on
+// all ranks. `file`: the first rank's, which has yet to finish() it; null on all others, which
+// write beside it under its name of now. REQUIRES: no flawOf(). Throws RanksError, everywhere.
 void writeShared(const Ranks& ranks, Field values, const GridBox& box, const SharedStep& step,
                  WholeFile* file);
 
