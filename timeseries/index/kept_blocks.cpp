@@ -1,6 +1,7 @@
 #include "timeseries/index/kept_blocks.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "timeseries/together.h"
 
@@ -32,6 +33,21 @@ KeptBlock BlockMemory::keep(const EncodedBlock& block) {
 void BlockMemory::clear() {
     piece_ = 0;
     used_ = 0;
+}
+
+void KeptBlocks::fill(std::uint64_t count, const Encode& encode, unsigned threads) {
+    blocks_.resize(count);
+    const unsigned parts = threadsFor(count, 1, threads);
+    memory_.resize(std::max<std::size_t>(memory_.size(), parts));
+    std::atomic<std::uint64_t> next{0};
+    sharing(parts, [&](unsigned part) {
+        memory_[part].clear();
+        EncodedBlock block;
+        for (std::uint64_t b; (b = next++) < count;) {
+            encode(b, block);
+            blocks_[b] = memory_[part].keep(block);
+        }
+    });
 }
 
 void BlockWriter::write(std::span<const KeptBlock> blocks, std::span<const StepBlock> places) {

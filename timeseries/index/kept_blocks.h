@@ -29,8 +29,20 @@ class BlockMemory {
     std::size_t piece_ = 0, used_ = 0;  // of which bytes are taken next
 };
 
+// Blocks that are encoded at once, and where they are kept.
+class KeptBlocks {
+ public:
+    // Encodes so many, on as many threads, into the memory of those before.
+    void fill(std::uint64_t count, const Encode& encode, unsigned threads);
+    std::span<const KeptBlock> blocks() const { return blocks_; }
+
+ private:
+    std::vector<KeptBlock> blocks_;
+    std::vector<BlockMemory> memory_;  // a thread each
+};
+
 // Writes blocks where they lie. What lies together is one write, for which the system takes larger
-// pages than for many: half the time of one (measured, where a page takes 12 us).
+// pages of its cache than for many.
 class BlockWriter {
  public:
     // No write begins with so many bytes before it that it could go with: memory is held for it.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 
 #include "timeseries/index/kept_blocks.h"
 #include "timeseries/index/step_blocks.h"
@@ -23,9 +22,7 @@ std::optional<WrittenBlocks> writeBlocks(std::uint64_t points,
     std::vector<StepBlock> directory;
     directory.reserve(blocks);
     std::uint64_t at = kHeaderBytes;
-    const unsigned parts = threadsFor(std::min(blocks, kBlocksTogether), 1, threads);
-    std::vector<BlockMemory> memory(parts);
-    std::vector<KeptBlock> kept(std::min(blocks, kBlocksTogether));
+    KeptBlocks kept;
     BlockWriter writer(sink, threads);
     for (std::uint64_t first = 0; first < blocks; first += kBlocksTogether) {
         if (goOn && !goOn(static_cast<double>(first) / static_cast<double>(blocks)))
@@ -33,19 +30,12 @@ std::optional<WrittenBlocks> writeBlocks(std::uint64_t points,
         const std::uint64_t count = std::min(kBlocksTogether, blocks - first);
         const std::uint64_t from = first * kStepBlock;
         find({from, std::min(points, (first + count) * kStepBlock) - from});
-        std::atomic<std::uint64_t> next{0};
-        sharing(parts, [&](unsigned part) {
-            memory[part].clear();
-            EncodedBlock block;
-            for (std::uint64_t b; (b = next++) < count;) {
-                encode(first + b, block);
-                kept[b] = memory[part].keep(block);
-            }
-        });
-        for (std::uint64_t b = 0; b < count; ++b) directory.push_back(kept[b].entry);
+        kept.fill(
+            count, [&](std::uint64_t b, EncodedBlock& out) { encode(first + b, out); }, threads);
+        for (const KeptBlock& block : kept.blocks()) directory.push_back(block.entry);
         const auto places = std::span(directory).subspan(first);
         at = placeBlocks(places, at);
-        writer.write(std::span(kept).first(count), places);
+        writer.write(kept.blocks(), places);
     }
     return WrittenBlocks{std::move(directory), at};
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -188,34 +187,30 @@ StepFacts factsOf(const Ranks& ranks, const ListPart<T>& part, const SharedStep&
     return facts;
 }
 
-struct KeptBlocks {
-    std::vector<KeptBlock> blocks;
-    std::vector<BlockMemory> memory;  // a thread each
+// What a block's points are put into before they are encoded.
+template <typename T>
+struct BlockPoints {
+    std::vector<PackedPoint<T>> packed = std::vector<PackedPoint<T>>(kStepBlock);
+    std::vector<T> values = std::vector<T>(kStepBlock);
+    std::vector<std::uint32_t> gridIndex = std::vector<std::uint32_t>(kStepBlock);
 };
 
 template <typename T>
 KeptBlocks encode(const ListPart<T>& part, const BrickOrder& order) {
     const std::uint64_t all = part.mine.size();
     KeptBlocks kept;
-    kept.blocks.resize((all + kStepBlock - 1) / kStepBlock);
-    kept.memory.resize(threadsFor(kept.blocks.size(), 1));
-    std::atomic<std::size_t> next{0};
-    sharing(static_cast<unsigned>(kept.memory.size()), [&](unsigned thread) {
-        std::vector<PackedPoint<T>> points(kStepBlock);
-        std::vector<T> values(kStepBlock);
-        std::vector<std::uint32_t> gridIndex(kStepBlock);
-        EncodedBlock block;
-        for (std::size_t b; (b = next++) < kept.blocks.size();) {
-            const std::size_t count = std::min(kStepBlock, all - b * kStepBlock);
-            const auto these = std::span(points).first(count);
-            part.mine.copy(b * kStepBlock, these);
-            const auto some = std::span(values).first(count);
-            const auto theirs = std::span(gridIndex).first(count);
-            unpackPoints<T>(these, some, theirs);
-            encodeBlock<T>(some, theirs, order, block);
-            kept.blocks[b] = kept.memory[thread].keep(block);
-        }
-    });
+    kept.fill((all + kStepBlock - 1) / kStepBlock,
+              [&](std::uint64_t b, EncodedBlock& out) {
+                  static thread_local BlockPoints<T> points;
+                  const std::size_t count = std::min(kStepBlock, all - b * kStepBlock);
+                  const auto packed = std::span(points.packed).first(count);
+                  const auto values = std::span(points.values).first(count);
+                  const auto gridIndex = std::span(points.gridIndex).first(count);
+                  part.mine.copy(b * kStepBlock, packed);
+                  unpackPoints<T>(packed, values, gridIndex);
+                  encodeBlock<T>(values, gridIndex, order, out);
+              },
+              sharingThreads());
     return kept;
 }
 
@@ -226,13 +221,13 @@ void writeList(const Ranks& ranks, ListPart<T> part, const SharedStep& step, Who
     ranks.agreed([&] { kept = encode(part, BrickOrder(step.size)); });
     part = ListPart<T>();
     std::vector<StepBlock> entries;
-    for (const KeptBlock& block : kept.blocks) entries.push_back(block.entry);
+    for (const KeptBlock& block : kept.blocks()) entries.push_back(block.entry);
     std::vector<StepBlock> directory = ranks.gather<StepBlock>(entries);
     const std::uint64_t before = ranks.sumBefore(entries.size());
     const std::uint64_t end = placeBlocks(directory, kHeaderBytes);
     const auto write = [&](ByteSink& sink) {
         BlockWriter(sink, sharingThreads())
-            .write(kept.blocks, std::span(directory).subspan(before, entries.size()));
+            .write(kept.blocks(), std::span(directory).subspan(before, entries.size()));
     };
 
     const std::string name = ranks.fromFirst(file ? file->nameOfNow().string() : "");
