@@ -41,19 +41,21 @@ struct IndexedFile {
     TemporaryFolder folder;
     std::string file = folder.path() / "field.nrrd", cache = folder.path() / "cache",
                 picture = folder.path() / "picture.png", range;
+    ProgramRun index;
 
     explicit IndexedFile(std::size_t n) {
         const timeseries::Field field = bench::turbulence<float>(n);
         bench::writeField(file, "float", n, std::get<std::vector<float>>(field.values));
         range = onePercent(field);
-        runProgram({"index", file, "--cache", cache});
+        index = runProgram({"index", file, "--cache", cache});
     }
 };
 
 // The first picture by the program: without an index and with one.
 void storePicture(benchmark::State& state) {
     const IndexedFile of(static_cast<std::size_t>(state.range(0)));
-    const auto& [folder, file, cache, picture, range] = of;
+    const auto& [folder, file, cache, picture, range, index] = of;
+    tell(state, "index", index);
     for (auto _ : state)
         for (const std::string model : {"cells", "points"})
             for (const std::string from : {"file", "index"})

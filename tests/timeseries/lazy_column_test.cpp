@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "tests/support/selection_oracle.h"
+#include "timeseries/index/value_buckets.h"
+#include "timeseries/index/values_within.h"
 
 namespace timeseries {
 namespace {
@@ -224,6 +226,53 @@ TEST(LazyColumn, LooksOrderOnlyWhatTheyTouch) {
     ASSERT_NO_FATAL_FAILURE(expectInOrder(column, world, sorted, {4000, 10}));
     column.order({4000, 0});
     EXPECT_LE(column.sortedBuckets(), 2u);
+}
+
+template <typename T>
+class ValueBucketsOf : public testing::Test {};
+using WideTypes =
+    testing::Types<std::uint32_t, std::int32_t, std::uint64_t, std::int64_t, float, double>;
+TYPED_TEST_SUITE(ValueBucketsOf, WideTypes);
+
+TYPED_TEST(ValueBucketsOf, PartsAreTheWholeListCut) {
+    using T = TypeParam;
+    std::mt19937_64 random(59);
+    for (int round = 0; round < 60; ++round) {
+        const World<T> world = randomWorld<T>(random, 1 + random() % 5000);
+        const auto sorted = world.sorted();
+        const ValueBuckets<T> buckets(world.field, world.missing, world.kept, kSmall);
+        const auto& begin = buckets.about().begin;
+        ASSERT_EQ(begin.back(), sorted.size());
+        const std::size_t all = buckets.about().least.size();
+        for (std::size_t first = 0, end; first < all; first = end) {
+            end = std::min<std::size_t>(all, first + 1 + random() % 4);
+            const LazyColumn<T> part(buckets.points(first, end), kSmall.threads);
+            part.orderAll();
+            const std::vector<std::uint32_t> cut(
+                sorted.begin() + static_cast<std::ptrdiff_t>(begin[first]),
+                sorted.begin() + static_cast<std::ptrdiff_t>(begin[end]));
+            ASSERT_EQ(part.size(), cut.size()) << "buckets " << first << " to " << end;
+            ASSERT_NO_FATAL_FAILURE(expectInOrder(part, world, cut, {0, cut.size()}));
+        }
+    }
+}
+
+TYPED_TEST(ValueBucketsOf, ValuesWithinAreThoseThatCompareSo) {
+    using T = TypeParam;
+    std::mt19937_64 random(61);
+    for (int round = 0; round < 300; ++round) {
+        const World<T> world = randomWorld<T>(random, 1 + random() % 200);
+        const T a = boundOf(world, random), b = boundOf(world, random);
+        const Interval<T> in{std::min(a, b), std::max(a, b)};
+        PlacesWithin<T> places;
+        const std::size_t found = valuesWithin<T>(world.field, in, places);
+        std::vector<OrderedKey<T>> expected;
+        for (std::size_t i = 0; i < world.field.size(); ++i)
+            if (in.lo <= world.field[i] && world.field[i] <= in.hi)
+                expected.push_back(static_cast<OrderedKey<T>>(i));
+        ASSERT_EQ(std::vector(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(found)),
+                  expected);
+    }
 }
 
 // One prefix of 16 bits: floats within 2^-7 of each other, and doubles within 2^-30.

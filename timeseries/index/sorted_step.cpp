@@ -19,6 +19,7 @@
 #include "timeseries/index/ordered_key.h"
 #include "timeseries/index/step_blocks.h"
 #include "timeseries/index/step_file.h"
+#include "timeseries/index/step_statistics.h"
 #include "timeseries/index/stored_column.h"
 
 namespace timeseries {
@@ -37,24 +38,6 @@ std::string_view whyNoSolids(const MeshAbout& about) {
     };
     if (std::ranges::any_of(about.cells, isSolid)) return kTooMany;
     return "the values are of surfaces, or of columns on them, not of solid cells";
-}
-
-// Of so many values of a field, of which the partition found what is valid.
-template <typename T>
-StepStatistics statisticsOf(std::size_t values, const Partition<T>& points) {
-    StepStatistics s;
-    s.points = points.valid;
-    s.missing = values - s.points;
-    s.min = s.max = s.finiteMin = s.finiteMax = std::numeric_limits<double>::quiet_NaN();
-    if (s.points > 0) {
-        s.min = numberOf(points.leastValid);
-        s.max = numberOf(points.greatestValid);
-    }
-    if (points.finite) {
-        s.finiteMin = numberOf(points.finite->first);
-        s.finiteMax = numberOf(points.finite->second);
-    }
-    return s;
 }
 
 // REQUIRES: both as RangeSet::toIntervals gives them.
@@ -121,9 +104,7 @@ SortedStep SortedStep::buildOf(const Field& field, const RangeSet& kept, unsigne
     step.cells_ = std::make_shared<LazyCells>();
     std::visit(
         [&]<typename T>(const std::vector<T>& all) {
-            if (all.size() > (std::uint64_t{1} << 32))
-                throw std::length_error(fmt::format(
-                    "a step of {} points is more than the 2^32 that one list holds", all.size()));
+            expectOneList(all.size());
             const auto intervals = kept.toIntervals<T>();
             Partition<T> points =
                 partition<T>(all, field.missing, intervals,

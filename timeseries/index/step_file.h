@@ -92,12 +92,11 @@ class StepFile {
 // written is of no use. Throws StepFileError, and std::bad_alloc.
 bool writeStep(const SortedStep& step, const std::string& about, ByteSink& sink,
                const std::function<bool(double)>& goOn = {}, unsigned threads = sharingThreads());
-// The same of the field that a step would be built of, of values of one or two bytes, with less
-// memory than its list: of `atOnce` points of it, and fewer than 2^23 more; 0: of an eighth.
-// REQUIRES: canBeCounted().
-bool writeCounted(const Field& field, const std::string& about, ByteSink& sink,
-                  const std::function<bool(double)>& goOn = {}, unsigned threads = sharingThreads(),
-                  std::uint64_t atOnce = 0);
-bool canBeCounted(ValueType type);
+// The same of the field that a step would be built of, with less memory than its list: of `atOnce`
+// points of it, and fewer than 2^23 and a bucket's more; 0: of a part of them. REQUIRES: a value
+// that is neither missing nor NaN. Throws std::length_error for more than 2^32 points, too.
+bool writeField(const Field& field, const std::string& about, ByteSink& sink,
+                const std::function<bool(double)>& goOn = {}, unsigned threads = sharingThreads(),
+                std::uint64_t atOnce = 0);
 
 }  // namespace timeseries

@@ -56,6 +56,9 @@ struct PartitionSize {
     std::function<void(std::size_t first, std::size_t last)> passed = {};
 };
 
+// Throws std::length_error for more points than one list holds, 2^32.
+void expectOneList(std::uint64_t points);
+
 // The points of `field` that are not missing and whose values lie in `kept`, which is as
 // RangeSet::toIntervals gives it. `missing` is empty or a mark a point. REQUIRES: at most 2^32
 // points. Throws std::bad_alloc.

@@ -5,15 +5,20 @@
 #include <emmintrin.h>
 #endif
 
+#include <sys/sysinfo.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "timeseries/index/field_points.h"
 #include "timeseries/index/value_partition.h"
 
 namespace timeseries {
@@ -98,5 +103,57 @@ class Scatter {
     const std::vector<std::uint64_t> first_;
     std::unique_ptr<Room[]> lines_;
 };
+
+// Where each thread's points of each slot from `first` on begin, the slots one after the other.
+template <typename T>
+std::vector<std::vector<std::uint64_t>> startsOf(const std::vector<Counted<T>>& parts,
+                                                 std::size_t first, std::size_t end) {
+    std::vector<std::vector<std::uint64_t>> starts(parts.size(),
+                                                   std::vector<std::uint64_t>(end - first));
+    std::uint64_t at = 0;
+    for (std::size_t slot = first; slot < end; ++slot)
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            starts[k][slot - first] = at;
+            at += parts[k].inBin[slot];
+        }
+    return starts;
+}
+
+// The points from `among`, of which it calls back one after the other.
+template <typename T, bool kValues, typename Slot, typename Among>
+void scatterAll(const FieldPoints<T>& points, std::vector<std::vector<std::uint64_t>> starts,
+                const Slot& slotOf, const Among& among,
+                const std::function<void(std::size_t, std::size_t)>& passed, Partition<T>& out) {
+    constexpr std::size_t kAtOnce = std::size_t{1} << 22;
+    const auto threads = static_cast<unsigned>(starts.size());
+    sharing(threads, [&](unsigned k) {
+        Scatter<T, kValues> scatter(out, std::move(starts[k]));
+        const auto put = [&](std::size_t i, T value) {
+            const auto key = orderedKey(value);
+            scatter.put(slotOf(key), i, valueOfKey<T>(key));
+        };
+        const std::size_t end = points.begin(k + 1, threads);
+        for (std::size_t from = points.begin(k, threads), to = 0; from < end; from = to) {
+            to = std::min(from + kAtOnce, end);
+            among(from, to, put);
+            if (passed) passed(from, to);
+        }
+        scatter.finish();
+    });
+}
+
+// What will be filled at once where memory is plenty; else, as it is filled, a page after the
+// other, while the field's are given back.
+template <typename V>
+Pages<V> roomFor(std::uint64_t points) {
+    constexpr std::size_t kPlenty = 4;
+    const auto bytes = static_cast<std::size_t>(points) * (sizeof(std::uint32_t) + sizeof(V));
+    if (muchIsFree(kPlenty * bytes)) return Pages<V>(points);
+    // Of pages that come one by one the system promises more than there is.
+    struct sysinfo all {};
+    if (sysinfo(&all) == 0 && points * sizeof(V) > (all.totalram + all.totalswap) * all.mem_unit)
+        throw std::bad_alloc();
+    return Pages<V>(points, Filled::Sparsely);
+}
 
 }  // namespace timeseries

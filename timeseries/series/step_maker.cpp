@@ -62,6 +62,18 @@ struct Reopened {
     }
 };
 
+// One that is neither missing nor NaN.
+bool hasValue(const Field& field) {
+    return std::visit(
+        [&](const auto& values) {
+            for (std::size_t i = 0; i < values.size(); ++i)
+                if (values[i] == values[i] && (field.missing.empty() || !field.missing[i]))
+                    return true;
+            return false;
+        },
+        field.values);
+}
+
 }  // namespace
 
 StepMaker::StepMaker(std::unique_ptr<Reader> reader, std::size_t variable, RangeSet kept,
@@ -156,38 +168,19 @@ std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
 
 StepMaker::Kept StepMaker::keep(std::size_t step) {
     const auto origin = originOf(*reader_, variable_, step);
-    if (origin) {
-        expectThere(*origin);
-        if (const auto kept = keepCounted(step, *origin)) return *kept;
-    }
-    const auto made = make(step);
-    if (made->file()) return Kept::Before;
-    if (!hasUnwritten()) {
-        if (origin) expectThere(*origin);
-        return made->size() == 0                       ? Kept::Empty
-               : made->sharedGrid() != variable().grid ? Kept::Moves
-                                                       : Kept::Unknown;
-    }
-    const Unwritten next = unwritten_.front();
-    unwritten_.pop_front();
-    return told(stores_.write->write(next.origin, next.stamp, *made, reader_->openedAt),
-                next.origin);
-}
-
-std::optional<StepMaker::Kept> StepMaker::keepCounted(std::size_t step, const StepOrigin& origin) {
-    if (!stores_.write || kept_ != RangeSet::everything() || !canBeCounted(variable().type))
-        return std::nullopt;
-    if (reader_->sorted(variable_, step) || find(origin, step)) return Kept::Before;
-    const auto stamp = stores_.write->stampOf(origin);
+    if (origin) expectThere(*origin);
+    if (reader_->sorted(variable_, step) || (origin && find(*origin, step))) return Kept::Before;
+    std::optional<OriginStamp> stamp;
+    if (origin && stores_.write) stamp = stores_.write->stampOf(*origin);
     const Field field = read(step);
-    const auto missing = std::ranges::count(field.missing, true);
-    const std::uint64_t points = field.grid->count() - static_cast<std::uint64_t>(missing);
-    if (points == 0) return Kept::Empty;
+    if (!hasValue(field)) return Kept::Empty;
     if (field.grid != variable().grid) return Kept::Moves;
-    if (!stamp || points < stores_.worthWriting || field.type() != variable().type)
-        return std::nullopt;
-    const auto into = [&](WholeFile& file) { return writeCounted(field, stamp->text, file); };
-    return told(stores_.write->write(origin, *stamp, reader_->openedAt, into), origin);
+    if (!stamp || kept_ != RangeSet::everything() || field.type() != variable().type) {
+        if (origin) expectThere(*origin);
+        return Kept::Unknown;
+    }
+    const auto into = [&](WholeFile& file) { return writeField(field, stamp->text, file); };
+    return told(stores_.write->write(*origin, *stamp, reader_->openedAt, into), *origin);
 }
 
 StepMaker::Kept StepMaker::told(StepStore::Wrote wrote, const StepOrigin& origin) const {

@@ -67,8 +67,6 @@ class StepMaker {
         std::weak_ptr<const SortedStep> step;
     };
     std::shared_ptr<const SortedStep> find(const StepOrigin& origin, std::size_t step);
-    // keep() of a step that is written from its field; nothing: it is not, or has to be looked at.
-    std::optional<Kept> keepCounted(std::size_t step, const StepOrigin& origin);
     Kept told(StepStore::Wrote wrote, const StepOrigin& origin) const;
     SortedStep sorted(Field field) const;
     // Of files that have not changed, before or meanwhile.

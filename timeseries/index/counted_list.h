@@ -1,20 +1,24 @@
-// Steps of one or two bytes a value written from their fields: how often each value is there tells
-// where its points stand in the list, so that any stretch of it can be made alone.
-#include <algorithm>
-#include <array>
+// The list of a field of one or two bytes a value: how often each value is there tells where its
+// points stand, so that any stretch of it can be found alone.
+#pragma once
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "timeseries/grid/field.h"
 #include "timeseries/grid/pages.h"
-#include "timeseries/grid/with_type.h"
 #include "timeseries/index/ordered_key.h"
 #include "timeseries/index/step_blocks.h"
+#include "timeseries/together.h"
 
 namespace timeseries {
-namespace {
 
 template <typename T>
 class CountedList {
  public:
-    // Of so many points at once, whole blocks. The field must outlive this.
+    // REQUIRES: a point; `atOnce`, of which so many are found, are whole blocks; the field outlives
+    // this.
     CountedList(const Field& field, std::uint64_t atOnce, unsigned threads)
         : values_(std::get<std::vector<T>>(field.values)),
           missing_(field.missing),
@@ -39,11 +43,16 @@ class CountedList {
     std::uint64_t points() const { return begins_.back(); }
     T at(std::uint64_t place) const { return valueOfKey<T>(static_cast<Key>(keyAt(place))); }
 
-    // What encode() takes next: from this place on.
-    void find(std::uint64_t place) {
-        if (found_ > 0 && place >= first_ && place < first_ + found_) return;
-        first_ = place;
-        found_ = std::min(atOnce_, points() - first_);
+    StepStatistics statistics() const {
+        const Number least = numberOf(at(0)), greatest = numberOf(at(points() - 1));
+        return {points(), values_.size() - points(), least, greatest, least, greatest};
+    }
+    Run finite() const { return {0, points()}; }
+    // What encode() takes next: whole blocks that end with one of those at once, or the list.
+    void find(const Run& points) {
+        if (found_ > 0 && points.first >= first_ && points.first < first_ + found_) return;
+        first_ = points.first;
+        found_ = std::min(atOnce_, this->points() - first_);
         const std::size_t least = keyAt(first_), keys = keyAt(first_ + found_ - 1) - least + 1;
         sharing(static_cast<unsigned>(before_.size()), [&](unsigned part) {
             std::vector<std::uint64_t> next(keys);  // less than the first: far beyond the last
@@ -98,44 +107,5 @@ class CountedList {
     std::uint64_t atOnce_, first_ = 0, found_ = 0;
     Pages<std::uint32_t> gridIndex_;
 };
-
-template <typename T>
-bool write(const Field& field, const std::string& about, ByteSink& sink,
-           const std::function<bool(double)>& goOn, unsigned threads, std::uint64_t atOnce) {
-    CountedList<T> list(field, atOnce, threads);
-    StepFacts facts{field.type(), sizeOf(*field.grid), {}, {}, about};
-    const BrickOrder order(facts.size);
-    const auto blocks = writeBlocks(
-        list.points(), [&](const Run& points) { list.find(points.first); },
-        [&](std::uint64_t block, EncodedBlock& out) { list.encode(block, order, out); }, sink, goOn,
-        threads);
-    if (!blocks) return false;
-    const Number least = numberOf(list.at(0)), greatest = numberOf(list.at(list.points() - 1));
-    facts.statistics = {list.points(), field.grid->count() - list.points(), least, greatest, least,
-                        greatest};
-    for (const std::uint64_t place : quantileRanks({0, list.points()}, kStepQuantiles))
-        facts.quantiles.push_back(toDouble(numberOf(list.at(place))));
-    finishStep(facts, blocks->directory, blocks->end, sink);
-    return true;
-}
-
-}  // namespace
-
-bool canBeCounted(ValueType type) {
-    return withType(type, []<typename T>(T) { return sizeof(T) <= 2; });
-}
-
-bool writeCounted(const Field& field, const std::string& about, ByteSink& sink,
-                  const std::function<bool(double)>& goOn, unsigned threads, std::uint64_t atOnce) {
-    constexpr std::uint64_t kTogether = kBlocksTogether * kStepBlock, kParts = 8;
-    if (atOnce == 0) atOnce = field.grid->count() / kParts;
-    atOnce = (atOnce / kTogether + 1) * kTogether;
-    return withType(field.type(), [&]<typename T>(T) {
-        if constexpr (sizeof(T) <= 2)
-            return write<T>(field, about, sink, goOn, threads, atOnce);
-        else
-            return false;
-    });
-}
 
 }  // namespace timeseries
