@@ -34,7 +34,7 @@ class PartedList {
     Run finite() const {
         const Partition<T>& about = buckets_.about();
         if (!about.finite) return {};
-        const auto [least, greatest] = *about.finite;
+        const T least = about.finite->first, greatest = about.finite->second;
         if (least == about.leastValid && greatest == about.greatestValid) return {0, points()};
         const auto valid = [this](std::size_t i) { return missing_.empty() || !missing_[i]; };
         const std::uint64_t below = sumOf(values_.size(), [&](std::size_t i) -> std::uint64_t {
