@@ -6,7 +6,7 @@
 
 #include "app/choices/choice_text.h"
 #include "app/command/commands.h"
-#include "app/exploration/memory_budget.h"
+#include "app/files/memory_budget.h"
 #include "app/files/step_cache.h"
 #include "app/say.h"
 #include "timeseries/index/sorted_step.h"

@@ -60,8 +60,9 @@ int index(const IndexOptions& options) {
     const auto jobs = static_cast<unsigned>(std::min<std::size_t>(options.jobs, tasks.size()));
     IndexedSteps done;
     {
-        IndexWork all(options, store, tasks, tasks);  // with a line of its own on a terminal
-        if (jobs > 1)                                 // each sorts on its share of the cores
+        IndexProgress progress(tasks.size());
+        IndexWork all(options, store, tasks, tasks, progress);
+        if (jobs > 1)  // each sorts on its share of the cores
             timeseries::threadLimit = std::max(1u, timeseries::sharingThreads() / jobs);
         timeseries::sharing(jobs, [&](unsigned) { all.work(); });
         done = all.done();

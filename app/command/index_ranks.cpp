@@ -204,18 +204,23 @@ IndexedSteps indexAll(const Ranks& ranks, const IndexOptions& options,
             alone.push_back(tasks[i]);
     }
     IndexedSteps done;
+    const auto shown = ranks.isFirst() ? IndexProgress::Shown::Yes : IndexProgress::Shown::No;
     ranks.agreed([&] {
-        IndexWork own(options, store, std::move(alone), tasks);
+        IndexProgress progress(rounds * ranks.size(), shown, ranks.size());
+        IndexWork own(options, store, std::move(alone), tasks, progress);
         own.work();
         done = own.done();
     });
     TogetherWork together(ranks, options, store);
+    IndexProgress progress(shared.size(), shown);
     for (const IndexTask& task : shared) {
         try {
             const StepMaker::Kept kept = together.keep(task);
             if (ranks.isFirst()) ++done.of(kept);
+            progress.finish(0, kept == StepMaker::Kept::Before || kept == StepMaker::Kept::NoRoom);
         } catch (const timeseries::RanksError& error) {  // all have it
             if (ranks.isFirst()) done.fail(error.what());
+            progress.finish(0, true);
         }
     }
     std::array<std::uint64_t, StepMaker::kKept> sums{};

@@ -87,11 +87,9 @@ std::shared_ptr<StepStore> indexStoreOf(const IndexOptions& options) {
 }
 
 IndexWork::IndexWork(const IndexOptions& options, std::shared_ptr<StepStore> store,
-                     std::vector<IndexTask> tasks, std::span<const IndexTask> all)
-    : options_(options),
-      store_(std::move(store)),
-      tasks_(std::move(tasks)),
-      progress_("step", tasks_.size()) {
+                     std::vector<IndexTask> tasks, std::span<const IndexTask> all,
+                     IndexProgress& progress)
+    : options_(options), store_(std::move(store)), tasks_(std::move(tasks)), progress_(progress) {
     store_->room().hold([options, paths = std::vector(all.begin(), all.end()),
                          store = store_.get()] { return pathsOf(options, paths, *store); });
 }
@@ -115,15 +113,6 @@ void IndexWork::finish(std::optional<StepMaker::Kept> kept, const std::string& w
         ++done_.of(*kept);
     else
         done_.fail(why);
-    const auto spent = std::chrono::duration<double>(Clock::now() - begin_).count();
-    const std::size_t finished = done_.all();
-    // The others take no time.
-    const std::size_t slow = finished - done_.failed - done_.of(StepMaker::Kept::Before) -
-                             done_.of(StepMaker::Kept::NoRoom);
-    if (slow == 0 || finished == tasks_.size()) return;
-    const double left =
-        spent / static_cast<double>(slow) * static_cast<double>(tasks_.size() - finished);
-    progress_.at(finished, fmt::format("at most {:.0f} s left", left));
 }
 
 void IndexWork::work() {
@@ -140,14 +129,20 @@ void IndexWork::work() {
         }
         std::optional<StepMaker::Kept> kept;
         std::string why;
+        double written = 0;
+        const auto tell = [&](double share) {
+            progress_.add(share - std::exchange(written, share));
+        };
         try {
             // The others are about as large: to sort them, too, would be in vain.
-            kept = isFull_ ? maker->keepNoMore(task.step) : maker->keep(task.step);
+            kept = isFull_ ? maker->keepNoMore(task.step) : maker->keep(task.step, tell);
             if (kept == StepMaker::Kept::NoRoom) isFull_ = true;
         } catch (const FileError& error) {  // the others are no worse for it
             why = error.what();
         }
         finish(kept, why);
+        progress_.finish(
+            written, !kept || kept == StepMaker::Kept::Before || kept == StepMaker::Kept::NoRoom);
     }
 }
 

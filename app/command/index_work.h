@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "app/choices/options.h"
-#include "app/files/progress.h"
+#include "app/command/index_progress.h"
 #include "timeseries/series/step_maker.h"
 
 namespace app {
@@ -50,7 +50,8 @@ class IndexWork {
  public:
     // `all` of what is asked for, whoever sorts it: none of them makes room for another.
     IndexWork(const IndexOptions& options, std::shared_ptr<timeseries::StepStore> store,
-              std::vector<IndexTask> tasks, std::span<const IndexTask> all);
+              std::vector<IndexTask> tasks, std::span<const IndexTask> all,
+              IndexProgress& progress);
     IndexWork(const IndexWork&) = delete;
     IndexWork& operator=(const IndexWork&) = delete;
     ~IndexWork();  // tells what went wrong before work() threw
@@ -64,16 +65,14 @@ class IndexWork {
     // What became of a step: how it is kept, or why it cannot be read.
     void finish(std::optional<timeseries::StepMaker::Kept> kept, const std::string& why);
 
-    using Clock = std::chrono::steady_clock;
     const IndexOptions& options_;
     const std::shared_ptr<timeseries::StepStore> store_;
     const std::vector<IndexTask> tasks_;
     std::atomic<std::size_t> next_{0};
     std::atomic<bool> isFull_ = false;  // the store
+    IndexProgress& progress_;
     std::mutex mutex_;
-    IndexedSteps done_;  // guarded by mutex_, as what follows
-    Progress progress_;
-    const Clock::time_point begin_ = Clock::now();
+    IndexedSteps done_;  // guarded by mutex_
 };
 
 // In a line, on stdout, when nobody writes any more; returns the exit code.

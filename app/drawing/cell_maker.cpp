@@ -1,9 +1,15 @@
 #include "app/drawing/cell_maker.h"
 
 #include <cstdint>
+#include <new>
 #include <thread>
 
+#include "app/files/memory_budget.h"
+#include "timeseries/index/cell_index.h"
+
 namespace app {
+
+using timeseries::CellIndex;
 
 void CellMaker::want(const Screen& screen) {
     constexpr std::uint64_t kCellsAtOnce = 1 << 18;      // 8 ms
@@ -12,6 +18,9 @@ void CellMaker::want(const Screen& screen) {
     const render::PlacedPoints& placed = screen.held->placed;
     shared_->wanted = step.get();
     if (!needsCells(screen.explorer, *step, placed)) return;
+    if (const auto [values, cells] = CellIndex::bytesOf(step->grid(), step->type());
+        values + cells > static_cast<double>(memoryBudget()))
+        return step->giveUpCells();
     const std::uint64_t points = step->grid().count();
     if (points <= kCellsAtOnce) step->cells();
     // Null where they are there, or nothing asks for them.
@@ -38,7 +47,9 @@ void CellMaker::want(const Screen& screen) {
                 }
             }
             step->cells();
-        } catch (...) {  // for want of memory or threads: points are drawn, as before
+        } catch (const std::bad_alloc&) {
+            step->giveUpCells();
+        } catch (...) {  // for want of threads, or its file is gone: points are drawn, as before
         }
         shared->busy = false;
     }).detach();

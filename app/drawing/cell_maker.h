@@ -10,7 +10,9 @@
 namespace app {
 
 // Few at once, many on a thread of its own, a step after another, which nobody waits for. A step
-// whose gradients cannot be made is not asked again: its tetrahedra keep their own light.
+// for whose cells there is no memory, or whose cells would all take more than steps may have of it,
+// is drawn by points from then on. One whose gradients cannot be made is not asked again: its
+// tetrahedra keep their own light.
 class CellMaker {
  public:
     void want(const Screen& screen);

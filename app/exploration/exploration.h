@@ -26,10 +26,10 @@
 #include "app/choices/explorer.h"
 #include "app/choices/history.h"
 #include "app/exploration/live_steps.h"
-#include "app/exploration/memory_budget.h"
 #include "app/exploration/opening.h"
 #include "app/exploration/point_counts.h"
 #include "app/files/dataset.h"
+#include "app/files/memory_budget.h"
 #include "app/wake.h"
 #include "timeseries/series/playback.h"
 

@@ -1,6 +1,6 @@
 #include "app/exploration/step_source.h"
 
-#include "app/exploration/memory_budget.h"
+#include "app/files/memory_budget.h"
 #include "app/files/step_cache.h"
 
 namespace app {

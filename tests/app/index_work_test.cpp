@@ -59,7 +59,8 @@ class IndexWorks : public testing::Test {
         testing::internal::CaptureStderr();
         IndexedSteps done;
         {
-            IndexWork work(options, store, tasks, tasks);
+            IndexProgress progress(tasks.size(), IndexProgress::Shown::No);
+            IndexWork work(options, store, tasks, tasks, progress);
             work.work();
             done = work.done();
         }
@@ -79,7 +80,8 @@ TEST_F(IndexWorks, StepsOfOneRequestDoNotMakeRoomForEachOther) {
         IndexOptions of = options;
         of.files = {folder / fmt::format("{}.nrrd", name)};
         fs::copy_file(nameOf(0), of.files[0]);
-        IndexWork work(of, storeOf(), {{name, 0}}, {});
+        IndexProgress progress(1, IndexProgress::Shown::No);
+        IndexWork work(of, storeOf(), {{name, 0}}, {}, progress);
         work.work();
     }
     ASSERT_EQ(storeOf()->list().size(), 2u);
@@ -130,6 +132,15 @@ TEST_F(IndexWorks, WhatSeveralStepsFailAtIsToldOnce) {
     EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("1005 steps: 0 written"));
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
               "isochron: one (3 steps)\nisochron: several (1,001 steps)\nisochron: alone\n");
+}
+
+// Of ten: what is there by now took no time, and tells nothing of the others.
+TEST(IndexProgress, TellsWhatIsLeftByWhatWasWritten) {
+    EXPECT_EQ(indexProgressText(10, 0, 0, 0, 0.5), "step 1 of 10, 0 %");
+    EXPECT_EQ(indexProgressText(10, 0, 0, 0.5, 3), "step 1 of 10, 5 %, at most 57 s left");
+    EXPECT_EQ(indexProgressText(10, 6, 4, 0.5, 5), "step 7 of 10, 65 %, at most 7 s left");
+    EXPECT_EQ(indexProgressText(10, 4, 4, 0, 1), "step 5 of 10, 40 %");
+    EXPECT_EQ(indexProgressText(1, 0, 0, 0.25, 2), "25 %, at most 6 s left");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What a window draws by cells, and by the points that stand for them.
 #include <gtest/gtest.h>
 
+#include "app/files/memory_budget.h"
 #include "render/image/exr.h"
 #include "render/reference/image_compare.h"
 #include "render/splat/gl_cells.h"
@@ -217,6 +218,21 @@ TEST_F(CanvasOfNoise, CellsOfALargeStepComeLater) {
     const auto file = tests::freshFolder() / "saved.exr";
     canvas.save(world_.shown(), file);
     EXPECT_EQ(render::readExr(file).views[0].image, image) << "the legend's words, too";
+}
+
+// Cells of 14^3 points, 8 bytes each, beside a budget that the values alone would fit.
+TEST_F(CanvasOfNoise, CellsBeyondTheMemoryForStepsAreDrawnByPointsAndThePictureSaysSo) {
+    const Image points = draw(world_.shown())[0];
+    world_.explorer.model = Model::Cells;
+    chosenMemory = 5 * world_.steps[0]->grid().count();
+    const Image image = draw(world_.shown())[0];
+    chosenMemory = 0;
+    EXPECT_TRUE(report_.whole);
+    EXPECT_FALSE(report_.lacksCells);
+    EXPECT_FALSE(report_.cells) << "but points";
+    EXPECT_EQ(report_.drawn, report_.selected);
+    EXPECT_NE(image, points) << "for its words";
+    EXPECT_EQ(world_.steps[0]->whyNoCells(), "so many cells would not fit the memory");
 }
 
 // Each tetrahedron is lit by its own gradient until then.

@@ -16,6 +16,7 @@ namespace {
 
 using namespace step_stores;
 using step_stores::StepStores;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -38,9 +39,26 @@ TEST_F(StepStores, ASourceThatChangedIsSortedAnew) {
     const auto step = maker()->make(0);
     EXPECT_FALSE(step->file());
     expectField(*step, 50);
+    EXPECT_THAT(store->takeNotes(), ElementsAre(HasSubstr("field.nrrd: it has changed since")));
+    EXPECT_FALSE(maker()->make(0)->file());
+    EXPECT_THAT(store->takeNotes(), IsEmpty()) << "once";
     EXPECT_EQ(maker()->keep(0), StepMaker::Kept::Written);
     expectField(*maker()->make(0), 50);
     EXPECT_EQ(files(), 1u);
+}
+
+// Another program may read a file otherwise: it has not changed.
+TEST_F(StepStores, AStepOfAnotherProgramIsNotOfAChangedSource) {
+    std::string about = store->stampOf(origin())->text;
+    const auto readers = about.find("\"readers\": \"") + 12;
+    ASSERT_LT(readers, about.size());
+    about[readers] = about[readers] == '0' ? '1' : '0';
+    fs::create_directories(store->folder());
+    WholeFile other(store->pathOf(origin()));
+    writeStep(*maker()->make(0), about, other);
+    other.finish();
+    EXPECT_FALSE(store->find(origin()));
+    EXPECT_THAT(store->takeNotes(), IsEmpty());
 }
 
 TEST_F(StepStores, ASourceReplacedAtEqualSizeAndTimeIsSortedAnew) {

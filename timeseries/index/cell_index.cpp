@@ -106,13 +106,18 @@ class CellIndex::Wanted {
 };
 
 bool CellIndex::canIndex(const Grid& grid, ValueType type) {
+    const Bytes bytes = bytesOf(grid, type);
+    return bytes.cells + bytes.values <= kMostBytes;
+}
+
+CellIndex::Bytes CellIndex::bytesOf(const Grid& grid, ValueType type) {
     double cells = 1;
     for (const std::size_t points : grid.size()) cells *= static_cast<double>(points) + 1;
     if (const SolidCells* solids = solidsOf(grid)) cells = static_cast<double>(solids->count());
     const auto size = withType(type, [](auto value) { return sizeof value; });
     const std::uint64_t nodes = grid.mesh() ? grid.mesh()->corners() - grid.mesh()->count() : 0;
-    const auto values = static_cast<double>(grid.count() * size + nodes * sizeof(double));
-    return cells * sizeof(list_[0]) + values <= kMostBytes;
+    return {static_cast<double>(grid.count() * size + nodes * sizeof(double)),
+            cells * sizeof(list_[0])};
 }
 
 CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,

@@ -29,6 +29,11 @@ class CellIndex {
     // enough to be numbered then.
     static constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;
     static bool canIndex(const Grid& grid, ValueType type);
+    // What the values of such a field take, and all its cells beside them.
+    struct Bytes {
+        double values, cells;
+    };
+    static Bytes bytesOf(const Grid& grid, ValueType type);
     // Looks at every value, on so many threads. Cells without a finite corner are left out, and so
     // are those that select() would not give for `among`: who asks for little waits for little.
     // REQUIRES: canIndex(*field->grid, its type).

@@ -2,6 +2,7 @@
 // about them.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -41,6 +42,8 @@ class SortedStep::LazyCells {
         field_.reset();
         return index_ = std::move(index);
     }
+    void giveUp() { areGivenUp_ = true; }
+    bool areGivenUp() const { return areGivenUp_; }
     std::shared_ptr<const Field> fieldIfThere() const {
         const std::lock_guard lock(held_);
         return index_ ? index_->sharedField() : field_;
@@ -76,6 +79,7 @@ class SortedStep::LazyCells {
     }
 
  private:
+    std::atomic<bool> areGivenUp_ = false;
     std::mutex making_, makingGradients_;
     mutable std::mutex held_;
     std::shared_ptr<const PointGradients> gradients_;

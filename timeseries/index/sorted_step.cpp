@@ -267,6 +267,8 @@ std::shared_ptr<const CellIndex> SortedStep::cellsIfMade(
     return cells_->ifMade(among);
 }
 
+void SortedStep::giveUpCells() const { cells_->giveUp(); }
+
 std::shared_ptr<const PointGradients> SortedStep::gradients(
     const std::shared_ptr<const Mesh>& mesh) const {
     if (auto made = gradientsIfMade(mesh)) return made;
@@ -280,6 +282,7 @@ std::shared_ptr<const PointGradients> SortedStep::gradientsIfMade(
 
 std::string_view SortedStep::whyNoCells() const {
     if (const std::string_view why = whyNothingBetween(); !why.empty()) return why;
+    if (cells_->areGivenUp()) return kTooMany;
     const bool isAllThere = size_ == statistics_.points || cells_->fieldIfThere();
     return isAllThere ? "" : "cells need every value kept";
 }

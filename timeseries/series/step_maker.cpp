@@ -166,7 +166,7 @@ std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
     return made;
 }
 
-StepMaker::Kept StepMaker::keep(std::size_t step) {
+StepMaker::Kept StepMaker::keep(std::size_t step, const std::function<void(double)>& told) {
     const auto origin = originOf(*reader_, variable_, step);
     if (origin) expectThere(*origin);
     if (reader_->sorted(variable_, step) || (origin && find(*origin, step))) return Kept::Before;
@@ -179,11 +179,15 @@ StepMaker::Kept StepMaker::keep(std::size_t step) {
         if (origin) expectThere(*origin);
         return Kept::Unknown;
     }
-    const auto into = [&](WholeFile& file) { return writeField(field, stamp->text, file); };
-    return told(stores_.write->write(*origin, *stamp, reader_->openedAt, into), *origin);
+    const auto goOn = [&](double share) {
+        if (told) told(share);
+        return true;
+    };
+    const auto into = [&](WholeFile& file) { return writeField(field, stamp->text, file, goOn); };
+    return keptAs(stores_.write->write(*origin, *stamp, reader_->openedAt, into), *origin);
 }
 
-StepMaker::Kept StepMaker::told(StepStore::Wrote wrote, const StepOrigin& origin) const {
+StepMaker::Kept StepMaker::keptAs(StepStore::Wrote wrote, const StepOrigin& origin) const {
     switch (wrote) {
         case StepStore::Wrote::All:
             return Kept::Written;

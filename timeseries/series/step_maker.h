@@ -50,7 +50,8 @@ class StepMaker {
     // room. Throws as make(), and StepFileError.
     enum class Kept { Before, Written, Moves, Empty, Changed, Unknown, NoRoom };
     static constexpr std::size_t kKept = 7;
-    Kept keep(std::size_t step);
+    // `told`: how much of it is written, of 1, now and then.
+    Kept keep(std::size_t step, const std::function<void(double)>& told = {});
     // As keep() where there is no room: Before, Unknown or NoRoom, without sorting.
     Kept keepNoMore(std::size_t step);
 
@@ -67,7 +68,7 @@ class StepMaker {
         std::weak_ptr<const SortedStep> step;
     };
     std::shared_ptr<const SortedStep> find(const StepOrigin& origin, std::size_t step);
-    Kept told(StepStore::Wrote wrote, const StepOrigin& origin) const;
+    Kept keptAs(StepStore::Wrote wrote, const StepOrigin& origin) const;
     SortedStep sorted(Field field) const;
     // Of files that have not changed, before or meanwhile.
     Field read(std::size_t step);

@@ -34,6 +34,12 @@ std::string textOf(const std::string& text) {
     return ordered_json(text).dump(-1, ' ', true, ordered_json::error_handler_t::replace);
 }
 
+// What a stamp's text says of them; null where it is none.
+ordered_json filesOf(const std::string& stamp) {
+    const auto all = ordered_json::parse(stamp, nullptr, false);
+    return all.is_object() ? all.value("files", ordered_json()) : ordered_json();
+}
+
 }  // namespace
 
 std::vector<std::string> StepStore::namesOf(const StepOrigin& origin) const {
@@ -118,7 +124,8 @@ std::shared_ptr<const StepFile> StepStore::look(const StepOrigin& origin) {
         auto bytes = timeseries::openBytes(path);
         if (!bytes) return nullptr;
         auto file = std::make_shared<const StepFile>(std::move(bytes));
-        return file->about() == stamp->text ? file : nullptr;
+        if (file->about() == stamp->text) return file;
+        if (filesOf(file->about()) != filesOf(stamp->text)) tellChanged(origin.files.front());
     } catch (const DamagedStepError& error) {
         discard(path, error.what());
     } catch (const StepFileError& error) {
@@ -215,6 +222,14 @@ void StepStore::discard(const fs::path& path, const std::string& why) {
          (failed ? fmt::format("; it cannot be removed ({})", failed.message())
                  : "; it was removed") +
          ", and the step is read from its own file");
+}
+
+// Of thousands of steps the first alone.
+void StepStore::tellChanged(const fs::path& file) {
+    if (!hasToldChanged_.exchange(true))
+        note(file.string() +
+             ": it has changed since it was sorted; it, and others that have, are "
+             "sorted anew");
 }
 
 void StepStore::giveUp(const std::string& why) {

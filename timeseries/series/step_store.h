@@ -2,6 +2,7 @@
 // sorted once is opened, not sorted again.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -57,8 +58,8 @@ class StepStore {
     const std::filesystem::path& folder() const { return folder_; }
     // None when a file of it is not there.
     std::optional<OriginStamp> stampOf(const StepOrigin& origin) const;
-    // Null where there is none, or it was made of what the origin no longer is; what is damaged is
-    // removed and told.
+    // Null where there is none, or it was made of what the origin no longer is, which is told of
+    // the first; what is damaged is removed and told.
     std::shared_ptr<const StepFile> find(const StepOrigin& origin);
     // As find(), but it does not count as use.
     std::shared_ptr<const StepFile> look(const StepOrigin& origin);
@@ -111,6 +112,7 @@ class StepStore {
                                  std::span<const std::string> names) const;
     void removeLeftovers();
     void note(std::string text);
+    void tellChanged(const std::filesystem::path& file);
 
     const std::filesystem::path folder_;
     const StoreKind kind_;
@@ -119,6 +121,7 @@ class StepStore {
     mutable std::mutex mutex_;
     std::vector<std::string> notes_, told_;  // guarded by mutex_, as what follows
     bool isTidied_ = false;
+    std::atomic<bool> hasToldChanged_ = false;
 };
 
 // A tenth of the disk that the folder is, or would be, on, at most 64 GiB.
