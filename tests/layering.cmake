@@ -5,21 +5,29 @@
 
 cmake_minimum_required(VERSION 3.22)
 
-# rule(FOLDER WHY REGEX): no file below FOLDER includes what matches.
+set(kinds *.h *.hpp *.cpp *.c *.inl)
 set(violations "")
-function(rule folder why regex)
-  file(GLOB_RECURSE sources ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp
-       ${ROOT}/${folder}/*.c ${ROOT}/${folder}/*.inl)
+
+# look(SOURCES WHY REGEX BUT): none of the files includes what matches REGEX and does not match BUT.
+function(look sources why regex but)
   foreach(source ${sources})
     file(STRINGS ${source} includes REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]")
     foreach(line IN LISTS includes)
       string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([^>\"]*).*" "\\1" header "${line}")
-      if(header MATCHES "${regex}")
+      if(header MATCHES "${regex}" AND NOT header MATCHES "${but}")
         cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${ROOT} OUTPUT_VARIABLE name)
         list(APPEND violations "${name} includes ${header}: ${why}")
       endif()
     endforeach()
   endforeach()
+  set(violations "${violations}" PARENT_SCOPE)
+endfunction()
+
+# rule(FOLDER WHY REGEX): no file below FOLDER includes what matches.
+function(rule folder why regex)
+  list(TRANSFORM kinds PREPEND "${ROOT}/${folder}/" OUTPUT_VARIABLE patterns)
+  file(GLOB_RECURSE sources ${patterns})
+  look("${sources}" "${why}" "${regex}" "^$")
   set(violations "${violations}" PARENT_SCOPE)
 endfunction()
 
@@ -55,7 +63,8 @@ macro(rooms folder)
       rule(${folder}/${room} "${folder}/${room} comes before it" "^${folder}/(${names})/")
     endif()
   endforeach()
-  file(GLOB entries RELATIVE ${ROOT}/${folder} ${ROOT}/${folder}/*/*.h)
+  list(TRANSFORM kinds PREPEND "${ROOT}/${folder}/*/" OUTPUT_VARIABLE patterns)
+  file(GLOB entries RELATIVE ${ROOT}/${folder} ${patterns})
   foreach(entry ${entries})
     cmake_path(GET entry PARENT_PATH room)
     if(NOT room IN_LIST known)
@@ -67,6 +76,22 @@ rooms(timeseries grid index readers series ranks)
 rooms(timeseries/readers text cf netcdf arrays xdmf vtk zarr foam amrex)
 rooms(render image gl points model splat reference annotate frame)
 rooms(app choices files picture measure exploration drawing panels desktop headset command)
+
+# beside(FOLDER REGEX): headers that stand beside the rooms, which are for all of these, include of
+# the project only each other and what matches.
+function(beside folder regex)
+  file(GLOB sources ${ROOT}/${folder}/*.h)
+  look("${sources}" "it stands beside the rooms" "^(timeseries|datasets|render|xr|app|tests)/"
+       "^${folder}/[^/]*$|${regex}")
+  set(violations "${violations}" PARENT_SCOPE)
+endfunction()
+beside(timeseries "^$")
+beside(render "^timeseries/[^/]*$")
+beside(app "^timeseries/[^/]*$|^render/annotate/utf8\\.h$")
+# Of readers, they are between the first room and the others.
+beside(timeseries/readers "^timeseries/(grid|index|readers/text)/")
+rule(timeseries/readers/text "it comes before what stands beside the rooms"
+     "^timeseries/readers/[^/]*$")
 
 if(violations)
   list(REMOVE_DUPLICATES violations)

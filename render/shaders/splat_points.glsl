@@ -1,5 +1,5 @@
 // Where points of a grid lie and what of them is drawn: put before the vertex shader of splats, and
-// before what finds how far away they are.
+// before what finds how far away they are. After grid_indices.glsl.
 // Variants: MESH (points lie one by one, their cells in any shape).
 
 // C++ mirror: SplatViewBlock in render/splat/gl_splat_view.h.
@@ -73,8 +73,7 @@ Point pointOf(uint gridIndex) {
 }
 #else
 Point pointOf(uint gridIndex) {
-    const uvec3 n = view.placed.xyz;
-    const uvec3 ijk = uvec3(gridIndex % n.x, gridIndex / n.x % n.y, gridIndex / n.x / n.y);
+    const uvec3 n = view.placed.xyz, ijk = indicesOf(gridIndex, n);
     const vec2 px = texelFetch(axisPoints, int(ijk.x)).xy;
     const vec2 py = texelFetch(axisPoints, int(n.x + ijk.y)).xy;
     const vec2 pz = texelFetch(axisPoints, int(n.x + n.y + ijk.z)).xy;

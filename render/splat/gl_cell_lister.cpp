@@ -131,7 +131,8 @@ std::uint64_t GlCellLister::bytes() const {
 const gl::Program& GlCellLister::program(const timeseries::Field& field, bool ofCorners) {
     const std::pair key(ofCorners ? timeseries::ValueType::F64 : field.type(), ofCorners);
     if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
-    const std::string source = std::string(shaders::cell_piece_glsl) + shaders::cell_pieces_comp;
+    const std::string source = std::string(shaders::grid_indices_glsl) + shaders::cell_piece_glsl +
+                               shaders::cell_pieces_comp;
     return programs_
         .emplace(key, gl::Program::ofCompute("cell_pieces", source.c_str(),
                                              definesOf(field, ofCorners).c_str()))

@@ -167,10 +167,10 @@ const gl::Program& GlCellSplatter::program(const Variant& variant) {
     if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
     std::string defines = defineOf(variant.channels);
     if (variant.ordered) defines += "#define ORDERED\n";
-    const std::string vertex =
-        std::string(shaders::cell_view_glsl) + shaders::cell_vertex_glsl +
-        (variant.tets ? std::string(shaders::tet_vert)
-                      : std::string(shaders::cell_piece_glsl) + shaders::cell_vert);
+    const std::string vertex = std::string(shaders::cell_view_glsl) + shaders::cell_vertex_glsl +
+                               (variant.tets ? std::string(shaders::tet_vert)
+                                             : std::string(shaders::grid_indices_glsl) +
+                                                   shaders::cell_piece_glsl + shaders::cell_vert);
     const std::string fragment = std::string(shaders::cell_view_glsl) + shaders::cell_range_glsl +
                                  (variant.tets ? shaders::tet_frag : shaders::cell_frag);
     return programs_

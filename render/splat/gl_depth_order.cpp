@@ -97,7 +97,8 @@ bool GlDepthOrder::fits(std::uint64_t points, const Scene& scene, const GlStep& 
 const gl::Program& GlDepthOrder::keys(bool mesh) {
     const auto found = keys_.find(mesh);
     if (found != keys_.end()) return found->second;
-    const std::string source = std::string(shaders::splat_points_glsl) + shaders::depth_keys_comp;
+    const std::string source = std::string(shaders::grid_indices_glsl) +
+                               shaders::splat_points_glsl + shaders::depth_keys_comp;
     return keys_
         .emplace(mesh,
                  gl::Program::ofCompute("depth_keys", source.c_str(), mesh ? "#define MESH\n" : ""))

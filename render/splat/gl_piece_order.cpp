@@ -61,9 +61,11 @@ std::shared_ptr<const gl::Buffer> GlPieceOrder::sorted(std::uint32_t count, unsi
 std::shared_ptr<const gl::Buffer> GlPieceOrder::operator()(const CellsToOrder& cells,
                                                            const glm::uvec3& eye) {
     if (cells.count == 0) return std::make_shared<const gl::Buffer>(0);
-    if (!cellKeys_)
-        cellKeys_ = gl::Program::ofCompute(
-            "cell_keys", (std::string(shaders::cell_piece_glsl) + shaders::cell_keys_comp).c_str());
+    if (!cellKeys_) {
+        const std::string source = std::string(shaders::grid_indices_glsl) +
+                                   shaders::cell_piece_glsl + shaders::cell_keys_comp;
+        cellKeys_ = gl::Program::ofCompute("cell_keys", source.c_str());
+    }
     const BrickKeys keys(cells.size, eye);
     sort_.begin(cells.count);
     glUseProgram(cellKeys_->id());

@@ -4,6 +4,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
+#include "render/model/footprint.h"
 #include "render/model/scene.h"
 #include "render/points/view.h"
 

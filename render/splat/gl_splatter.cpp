@@ -157,7 +157,8 @@ const gl::Program& GlSplatter::program(const Variant& variant) {
     if (variant.mesh) defines += "#define MESH\n";
     if (variant.cubes) defines += "#define CUBES\n";
     if (variant.kernel == Kernel::Point) defines += "#define KERNEL_POINT\n";
-    const std::string vertex = std::string(shaders::splat_points_glsl) + shaders::splat_vert;
+    const std::string vertex =
+        std::string(shaders::grid_indices_glsl) + shaders::splat_points_glsl + shaders::splat_vert;
     return programs_
         .emplace(variant,
                  gl::Program("splat", vertex.c_str(), shaders::splat_frag, defines.c_str()))

@@ -1,5 +1,5 @@
 // What a pair of eyes costs as a headset's front end draws them, and one eye of the pair: order and
-// upload are shared, so two may cost at most 2.1 times one.
+// upload are shared. At most 1.8 times one eye is asked for; RESULTS.md says what it is.
 #include <benchmark/benchmark.h>
 
 #include "app/headset/eyes.h"

@@ -10,6 +10,8 @@
 #include <map>
 #include <optional>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "tests/faults/disk_without_power.h"
 #include "tests/faults/system_calls.h"
@@ -17,6 +19,7 @@
 #include "tests/support/random_field.h"
 #include "tests/support/rounds.h"
 #include "tests/support/step_bytes.h"
+#include "tests/support/step_stores.h"
 #include "timeseries/readers/reader.h"
 #include "timeseries/series/step_maker.h"
 
@@ -24,10 +27,17 @@ namespace timeseries {
 namespace {
 
 namespace fs = std::filesystem;
+constexpr std::uint64_t kPage = 4096;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::ThrowsMessage;
 using tests::calls;
 using tests::done;
 using tests::watched;
+
+// What writes a step: of its list, or of its field, whose list is found in parts, by buckets or,
+// where a value is a byte, by counting.
+enum class Writer { OfList, OfField, OfBytes };
 
 class StepFaults : public testing::Test {
  protected:
@@ -41,10 +51,14 @@ class StepFaults : public testing::Test {
     Field field = tests::randomField<float>(random, {60, 50, 40}, 0);
     SortedStep step = SortedStep::build(field);
     fs::path path = folder / "a.isostep";
+    Writer writer = Writer::OfList;
 
     void write() const {
         WholeFile file(path);
-        writeStep(step, "about", file, {}, 1);
+        if (writer == Writer::OfList)
+            writeStep(step, "about", file, {}, 1);
+        else
+            writeField(field, "about", file, {}, 1);
         file.finish();
     }
     void expectWhole(const SortedStep& stored) const {
@@ -175,15 +189,31 @@ TEST_F(StepFaults, WithoutLocksAFileIsWrittenAndNothingElseRemoved) {
     EXPECT_FALSE(fs::exists(left));
 }
 
+class StepWriters : public StepFaults, public testing::WithParamInterface<Writer> {
+ protected:
+    StepWriters() { writer = GetParam(); }
+    // Another one each time.
+    void takeAStep(std::array<std::size_t, 3> size) {
+        field = writer == Writer::OfBytes ? tests::randomField<std::uint8_t>(random, size, 0)
+                                          : tests::randomField<float>(random, size, 0);
+        step = SortedStep::build(field);
+    }
+    // The same of all writers.
+    std::string whole() const {
+        const auto bytes = tests::written(step, "about");
+        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    }
+};
+INSTANTIATE_TEST_SUITE_P(By, StepWriters,
+                         testing::Values(Writer::OfList, Writer::OfField, Writer::OfBytes));
+
 // Killed in place of each of the writer's calls.
-TEST_F(StepFaults, AWriterThatIsKilledAtAnyCallLeavesTheOldFileOrTheNew) {
+TEST_P(StepWriters, ThatAreKilledAtAnyCallLeaveTheOldFileOrTheNew) {
+    takeAStep({60, 50, 40});
     write();
     const std::string before = tests::readBytes(path);
-    step = SortedStep::build(tests::randomField<float>(random, {60, 50, 40}, 0));
-    const std::string after = [&] {
-        const auto bytes = tests::written(step, "about");
-        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    }();
+    takeAStep({60, 50, 40});
+    const std::string after = whole();
     ASSERT_NE(before, after);
     std::size_t old = 0;
     for (std::size_t at = 0;; ++at) {
@@ -211,6 +241,92 @@ TEST_F(StepFaults, AWriterThatIsKilledAtAnyCallLeavesTheOldFileOrTheNew) {
         }
     }
     EXPECT_GE(old, 5u);  // pieces, header, sync, rename
+}
+
+// A disk with room for so many bytes takes a page at a time, the last write in part.
+void giveRoom(std::uint64_t bytes) {
+    calls = {};
+    calls.pwrite = [left = bytes](std::size_t, std::size_t asked) mutable -> std::optional<long> {
+        if (left == 0) return -ENOSPC;
+        const std::uint64_t taken = std::min({left, std::uint64_t{asked}, kPage});
+        left -= taken;
+        return static_cast<long>(taken);
+    };
+    // Nothing waits for the disk itself.
+    calls.fsync = [](std::size_t, std::size_t) { return std::optional<long>(0); };
+}
+
+// Those at which a page is full, and a byte less and more, below all of a file.
+std::vector<std::uint64_t> roomsFor(const std::string& file) {
+    std::vector<std::uint64_t> rooms{0, 1};
+    for (std::uint64_t pages = kPage; pages <= file.size(); pages += kPage)
+        rooms.insert(rooms.end(), {pages - 1, pages, pages + 1});
+    std::erase_if(rooms, [&](std::uint64_t room) { return room >= file.size(); });
+    rooms.push_back(file.size() - 1);
+    return rooms;
+}
+
+TEST_P(StepWriters, WithoutRoomAtAnyLengthLeaveWhatWasThere) {
+    takeAStep({30, 30, 20});
+    const std::string file = whole();
+    ASSERT_GT(file.size(), 4 * kPage);
+    for (const std::uint64_t room : roomsFor(file)) {
+        SCOPED_TRACE(testing::Message() << room << " of " << file.size() << " bytes");
+        for (const bool isOneThere : {true, false}) {
+            if (isOneThere)
+                tests::writeBytes(path, "the old one");
+            else
+                fs::remove(path);
+            giveRoom(room);
+            EXPECT_THAT([&] { write(); }, ThrowsMessage<StepFileError>(
+                                              HasSubstr("a.isostep: No space left on device")));
+            EXPECT_EQ(tests::readBytes(path), isOneThere ? "the old one" : "");
+            EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), isOneThere ? 1 : 0);
+        }
+        giveRoom(file.size());
+        write();
+        EXPECT_TRUE(tests::readBytes(path) == file);
+    }
+}
+
+class StoresWithoutRoom : public step_stores::StepStores {
+ protected:
+    ~StoresWithoutRoom() override { calls = {}; }
+    // As another program has it.
+    void openAnew() {
+        store = std::make_shared<StepStore>(folder / "steps", StoreKind::Cache,
+                                            StepStore::kNoBudget, step_stores::kAtOnce);
+    }
+};
+
+TEST_F(StoresWithoutRoom, AtAnyLengthTellItAndHaveNothing) {
+    ASSERT_EQ(maker()->keep(0), StepMaker::Kept::Written);
+    const fs::path path = store->pathOf(origin());
+    const std::string whole = tests::readBytes(path);
+    ASSERT_GT(whole.size(), 2 * kPage);
+    for (const std::uint64_t room : roomsFor(whole)) {
+        SCOPED_TRACE(testing::Message() << room << " of " << whole.size() << " bytes");
+        openAnew();
+        fs::remove(path);
+        giveRoom(room);
+        EXPECT_THAT([&] { (void)maker()->keep(0); },
+                    ThrowsMessage<StepFileError>(HasSubstr("No space left on device")));
+        EXPECT_EQ(files(), 0u);
+        EXPECT_FALSE(store->find(origin()));
+        // What was sorted to be shown is shown.
+        giveRoom(room);
+        const auto one = maker();
+        const auto step = one->make(0);
+        one->writeOne([](double) { return true; });
+        EXPECT_THAT(store->takeNotes(), ElementsAre(HasSubstr("No space left on device: sorted")));
+        EXPECT_FALSE(step->file());
+        step_stores::expectField(*step, 100);
+        EXPECT_EQ(files(), 0u);
+        giveRoom(whole.size());
+        EXPECT_EQ(maker()->keep(0), StepMaker::Kept::Written);
+        EXPECT_TRUE(tests::readBytes(path) == whole);
+        EXPECT_EQ(files(), 1u);
+    }
 }
 
 TEST_F(StepFaults, WheneverThePowerGoesTheFileIsTheOldOrTheNewOne) {

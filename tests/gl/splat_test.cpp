@@ -105,8 +105,17 @@ TEST_F(GlSplat, OrderedOverIsTheTruthsToTheOrdersResolution) {
     for (const glm::dvec3 eye : {tests::kMidEye, glm::dvec3(0.03, -3, 0.02)}) {
         // The second eye stands beside the point that the order was made for.
         const View view = lookFrom(eye, {300, 300});
-        // The GPU's keys are worked out in float.
-        EXPECT_LE(error(*this, scene, view, Channels::Over), 2e-4);
+        const auto expected = truth(scene, view, Channels::Over);
+        const auto errorOf = [&](const std::vector<float>& drawn) {
+            return compareScalars(drawn, expected).relativeL2;
+        };
+        // Four in five of these points are as far from the list's eye as a mirror image of theirs.
+        // Keys in double leave these in the order of value, as the truth does but for last bits.
+        EXPECT_LE(errorOf(onProcessor(scene, view, Channels::Over)), 1e-4);
+        // The GPU's are worked out in float, of whose 24 bits a key of 22 leaves a quarter of a
+        // step: of points that are as far away some fall into two steps, and come in that order
+        // (1.5e-4; of an eye without mirror images the list costs nothing).
+        EXPECT_LE(errorOf(plane(scene, view, Channels::Over)), 2e-4);
     }
 }
 

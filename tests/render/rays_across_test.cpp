@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "render/reference/cells_on_rays.h"
+#include "render/reference/sampled_error.h"
 #include "render/splat/tile_layout.h"
-#include "tests/support/sampled_errors.h"
+#include "tests/support/cell_worlds.h"
 
 namespace render {
 namespace {
@@ -127,20 +128,38 @@ TEST(RaysAcross, PixelsThatAreAskedHaveWhatIsSummedForAll) {
         ASSERT_NEAR(depth[i], perWeight * static_cast<double>(sums[i]), 1e-4 * most);
 }
 
-// Cells of half a pixel, and a thin range.
+// Cells of half a pixel and less, of which kMostRaysAcross leave two rays on a side of a cell, then
+// one; and a thin range: a fifth of the step between neighbours, root mean square, for which 0.12
+// is asked.
 TEST(RaysAcross, CellsBelowAPixelAreTrue) {
-    const CellWorld world = waves(40, {"0.2:0.25"});
-    const View view = viewOf(36);
-    const auto errorBy = [&](int rays) {
-        const DepthAt picture = [&, rays](std::span<const glm::ivec2> pixels) {
-            return cellDepthAt(world.scene, view, pixels, rays);
-        };
-        return tests::sampledError(world, view, picture, {.raysAcross = 24}).relativeL2;
+    struct Case {
+        int edge, pixels;
+        double side;          // of a cell in pixels, at most
+        int raysOfTruth;      // four a cell at least
+        double most, better;  // the error, and how many times less than that of one ray
     };
-    ASSERT_LT(cellPixels(world.scene, view), 0.5);
-    const double error = errorBy(raysAcross(world.scene, view));
-    EXPECT_LT(error, 0.05);
-    EXPECT_LT(5 * error, errorBy(1));
+    for (const Case& each : {Case{40, 36, 0.5, 24, 0.05, 5}, Case{57, 29, 0.25, 24, 0.12, 3},
+                             Case{81, 20, 0.125, 32, 0.12, 3}}) {
+        SCOPED_TRACE(testing::Message() << "cells of " << each.side << " pixels");
+        const CellWorld world = waves(each.edge, {"0.2:0.25"});
+        const View view = viewOf(each.pixels);
+        ASSERT_LT(std::sqrt(cellPixels(world.scene, view)), each.side);
+        const auto pictureBy = [&](int rays) -> DepthAt {
+            return [&, rays](std::span<const glm::ivec2> pixels) {
+                return cellDepthAt(world.scene, view, pixels, rays);
+            };
+        };
+        const DepthAt picture = pictureBy(raysAcross(world.scene, view));
+        SampledTruth truth(world.scene, view, picture, {.raysAcross = each.raysOfTruth});
+        for (const auto rays : {SampledTruth::Rays::Quarter, SampledTruth::Rays::Rest})
+            truth.add(world.scene.cells->field(), rays);
+        const auto errorOf = [&](const DepthAt& of) {
+            return truth.apart(of(truth.pixels()), truth.depth());
+        };
+        const double error = errorOf(picture);
+        EXPECT_LT(error, each.most);
+        EXPECT_LT(each.better * error, errorOf(pictureBy(1)));
+    }
 }
 
 }  // namespace

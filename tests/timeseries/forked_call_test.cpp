@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(Trial, WorkThatEndsChangesNothingHere) {
+TEST(ForkedCall, WorkThatEndsChangesNothingHere) {
     int value = 1;
     EXPECT_EQ(endOfForked([&] { value = 2; }, 10s), "");
     EXPECT_EQ(value, 1);
@@ -28,14 +28,14 @@ TEST(Trial, WorkThatEndsChangesNothingHere) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(Trial, WorkThatCrashesIsToldAndCrashesOnlyTheCopy) {
+TEST(ForkedCall, WorkThatCrashesIsToldAndCrashesOnlyTheCopy) {
     for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTERM})
         EXPECT_EQ(endOfForked([=] { std::raise(fault); }, 10s), "crashes") << fault;
     EXPECT_EQ(endOfForked([] { std::abort(); }, 10s), "crashes");
     EXPECT_EQ(endOfForked([] { _exit(3); }, 10s), "crashes");
 }
 
-TEST(Trial, WorkThatNeverEndsIsStopped) {
+TEST(ForkedCall, WorkThatNeverEndsIsStopped) {
     std::atomic<unsigned> count = 0;
     EXPECT_EQ(endOfForked(
                   [&] {
@@ -46,7 +46,7 @@ TEST(Trial, WorkThatNeverEndsIsStopped) {
 }
 
 // As for a lock whose owner is not in the copy.
-TEST(Trial, WorkThatWaitsForNobodyIsGivenUp) {
+TEST(ForkedCall, WorkThatWaitsForNobodyIsGivenUp) {
     const auto begin = std::chrono::steady_clock::now();
     EXPECT_EQ(endOfForked(
                   [] {
@@ -58,7 +58,7 @@ TEST(Trial, WorkThatWaitsForNobodyIsGivenUp) {
 }
 
 // It computes less than it waits, in each second of the limit something.
-TEST(Trial, WorkThatWaitsNowAndThenIsNotGivenUp) {
+TEST(ForkedCall, WorkThatWaitsNowAndThenIsNotGivenUp) {
     EXPECT_EQ(endOfForked(
                   [] {
                       for (int i = 0; i < 30; ++i) std::this_thread::sleep_for(100ms);
@@ -68,7 +68,7 @@ TEST(Trial, WorkThatWaitsNowAndThenIsNotGivenUp) {
               "crashes");
 }
 
-TEST(Trial, WorkMayAllocateWhileOtherThreadsDo) {
+TEST(ForkedCall, WorkMayAllocateWhileOtherThreadsDo) {
     if (tests::kSanitized)
         GTEST_SKIP()
             << "the sanitizer's allocator, unlike glibc's, keeps its locks in a forked process";

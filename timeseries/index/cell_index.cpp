@@ -155,8 +155,8 @@ CellIndex::CellIndex(std::shared_ptr<const Field> field, unsigned threads,
         const auto lookAt = [&](auto cells) {
             std::vector<std::uint32_t> near(size_.x);
             for (std::uint64_t r = rows * k / threads; r < rows * (k + 1) / threads; ++r) {
-                cells.look(static_cast<std::uint32_t>(r % size_.y),
-                           static_cast<std::uint32_t>(r / size_.y));
+                const glm::uvec3 at = indicesOf(static_cast<std::uint32_t>(r * size_.x), size_);
+                cells.look(at.y, at.z);
                 std::size_t count = 0;
                 for (std::uint32_t i = 0; i < size_.x; ++i) {
                     near[count] = i;

@@ -118,7 +118,8 @@ class Neighbours {
 
  private:
     std::uint64_t placeAlong(std::uint64_t point, std::size_t axis) const {
-        return point / step_[axis] % size_[axis];
+        return indicesOf<std::uint64_t>(point,
+                                        {size_[0], size_[1], size_[2]})[static_cast<int>(axis)];
     }
     Difference between(std::uint64_t from, std::uint64_t to) const {
         return {scaled_.way(scaled_.place(from), scaled_.place(to)),

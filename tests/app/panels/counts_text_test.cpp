@@ -17,7 +17,7 @@ TEST(DrawnText, CallsSplatsSplatsWherePointsAreDrawnInSeveralLayers) {
     EXPECT_EQ(drawnText({.splats = 30, .allSplats = 120, .points = 100}), "30 of 120 splats drawn");
 }
 
-TEST(DrawnText, CountsCells) {
+TEST(CellsText, CountsCellsAndThePointsBesideThem) {
     EXPECT_EQ(cellsText(0), "0 cells drawn");
     EXPECT_EQ(cellsText(1), "1 cell drawn");
     EXPECT_EQ(cellsText(3321), "3,321 cells drawn");
