@@ -13,6 +13,8 @@ namespace {
 
 // Less is listed before another thread has begun.
 constexpr std::size_t kListedWorthAThread = 1 << 15;
+// So many are sorted sooner than a million ranks are gone through.
+constexpr std::size_t kFew = 1 << 14;
 
 // Before which point of its axis a place lies: the index of the cell that holds it.
 std::uint32_t cellAlong(const std::vector<double>& positions, double place) {
@@ -48,7 +50,8 @@ CellList::CellList(const Scene& scene, Channels channels, std::size_t layer,
       rank_(nearestFirst),
       ranks_(rank_ != nullptr ? count_ : 0, timeseries::Filled::Sparsely),
       cells_(count_, timeseries::Filled::Sparsely) {
-    if (rank_ != nullptr) orders_.assign(threads_, NearestFirst(*rank_));
+    if (rank_ == nullptr || count_ <= kFew) return;
+    for (unsigned k = 0; k < threads_; ++k) orders_.emplace_back(*rank_);
 }
 
 std::vector<CellList::Part> CellList::partsFrom(std::size_t layer) const {
@@ -125,17 +128,31 @@ std::uint64_t CellList::list(std::uint64_t cells) {
                        cells_.data()[at] = cell;
                    })
             : pass(listing_, cells, [&](std::uint64_t at, const CellOfLayer& cell, unsigned k) {
-                  orders_[k].count(ranks_.data()[at] = (*rank_)(cell.cell));
+                  const std::uint32_t rank = ranks_.data()[at] = (*rank_)(cell.cell);
+                  if (!orders_.empty()) orders_[k].count(rank);
               });
     listed_ += some;
-    if (rank_ != nullptr && listed_ == count_) NearestFirst::allCounted(orders_);
+    if (rank_ == nullptr || listed_ < count_) return some;
+    if (orders_.empty())
+        ranksToPlaces();
+    else
+        NearestFirst::allCounted(orders_);
     return some;
+}
+
+void CellList::ranksToPlaces() {
+    const std::span ranks(ranks_.data(), count_);
+    std::vector<std::uint32_t> byRank(count_);
+    std::iota(byRank.begin(), byRank.end(), 0u);
+    std::ranges::stable_sort(byRank, {}, [&](std::uint32_t at) { return ranks[at]; });
+    for (std::uint32_t place = 0; const std::uint32_t at : byRank) ranks[at] = place++;
 }
 
 std::uint64_t CellList::place(std::uint64_t cells) {
     const std::uint64_t some =
         pass(placing_, cells, [&](std::uint64_t at, const CellOfLayer& cell, unsigned k) {
-            cells_.data()[orders_[k].place(ranks_.data()[at])] = cell;
+            const std::uint32_t rank = ranks_.data()[at];
+            cells_.data()[orders_.empty() ? rank : orders_[k].place(rank)] = cell;
         });
     placed_ += some;
     if (placed_ == count_ && scene_.placed.isMesh() && !scene_.byMiddles)

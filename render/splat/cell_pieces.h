@@ -136,15 +136,16 @@ class CellList {
     template <typename Use>
     void pass(Part& part, std::uint64_t cells, const Use& use) const;
     std::uint64_t list(std::uint64_t cells);
+    void ranksToPlaces();
     std::uint64_t place(std::uint64_t cells);
 
     const Scene& scene_;
     std::uint64_t count_, listed_ = 0, placed_ = 0;
     unsigned sharing_, threads_;  // that may, and that are worth it
     std::vector<Part> listing_, placing_;
-    const CellRank* rank_;              // where they are to be put in order
-    std::vector<NearestFirst> orders_;  // of each part, then
-    timeseries::Pages<std::uint32_t> ranks_;
+    const CellRank* rank_;                    // where they are to be put in order
+    std::vector<NearestFirst> orders_;        // of each part, then, unless they are few
+    timeseries::Pages<std::uint32_t> ranks_;  // of few, when all are listed, their places
     timeseries::Pages<CellOfLayer> cells_;
     std::optional<FaceOrder> byFaces_;  // of a mesh, when they have been placed
 };

@@ -170,6 +170,10 @@ void storeSeries(benchmark::State& state) {
             StepMaker maker(timeseries::openReader(paths), 0, RangeSet::everything());
             benchmark::DoNotOptimize(maker.make(0)->columns().gridIndex.data());
         });
+    state.counters["picture_ms"] =
+        bench::medianRun({"render", paths.front().string(), "--range", "0.1:0.2", "-o",
+                          (folder / "picture.png").string()})
+            .ms;
     fs::remove_all(folder);
     state.counters["first_ms"] = bench::median(cost.ms);
 }
