@@ -1,7 +1,6 @@
 #include "app/command/index_progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -11,14 +10,7 @@
 namespace app {
 
 IndexProgress::IndexProgress(std::size_t steps, Shown shown, std::size_t processes)
-    : steps_(steps),
-      processes_(processes),
-      onTerminal_(shown == Shown::Yes && isatty(STDERR_FILENO) != 0),
-      inLines_(shown == Shown::Yes && !onTerminal_) {}
-
-IndexProgress::~IndexProgress() {
-    if (onTerminal_) std::fputs("\r\033[K", stderr);
-}
+    : steps_(steps), processes_(processes), isShown_(shown == Shown::Yes) {}
 
 void IndexProgress::add(double share) {
     const std::lock_guard lock(mutex_);
@@ -34,10 +26,16 @@ void IndexProgress::finish(double added, bool isQuick) {
     show();
 }
 
+void IndexProgress::end() {
+    const std::lock_guard lock(mutex_);
+    isShown_ = false;
+    line_.wipe();
+}
+
 void IndexProgress::show() {
     constexpr auto kBetweenLines = std::chrono::seconds(30);
     const auto now = Clock::now();
-    if (!onTerminal_ && (!inLines_ || now < last_ + kBetweenLines)) return;
+    if (!isShown_ || (!line_.isThere() && now < last_ + kBetweenLines)) return;
     last_ = now;
     const std::size_t finished = std::min(steps_, finished_ * processes_);
     if (finished == steps_) return;
@@ -45,8 +43,8 @@ void IndexProgress::show() {
         indexProgressText(steps_, finished, std::min(finished, quick_ * processes_),
                           added_ * static_cast<double>(processes_),
                           std::chrono::duration<double>(now - begin_).count());
-    if (onTerminal_)
-        std::fputs(fmt::format("\r\033[K{} ", text).c_str(), stderr);
+    if (line_.isThere())
+        line_.show(text);
     else
         sayTo(stderr, "{}\n", text);
 }

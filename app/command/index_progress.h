@@ -7,6 +7,8 @@
 #include <mutex>
 #include <string>
 
+#include "app/files/progress.h"
+
 namespace app {
 
 // Every member is safe to call from any thread.
@@ -17,24 +19,26 @@ class IndexProgress {
     explicit IndexProgress(std::size_t steps, Shown shown = Shown::Yes, std::size_t processes = 1);
     IndexProgress(const IndexProgress&) = delete;
     IndexProgress& operator=(const IndexProgress&) = delete;
-    ~IndexProgress();
 
     // So much more of a step is written, of 1.
     void add(double share);
     // A step has ended, of which so much was added; the quick ones were there already.
     void finish(double added, bool isQuick);
+    // Nothing is told any more.
+    void end();
 
  private:
     using Clock = std::chrono::steady_clock;
     void show();
 
     const std::size_t steps_, processes_;
-    const bool onTerminal_, inLines_;
+    const TerminalLine line_;
     const Clock::time_point begin_ = Clock::now();
     std::mutex mutex_;
     Clock::time_point last_ = begin_;  // line; guarded by mutex_, as what follows
     std::size_t finished_ = 0, quick_ = 0;
     double added_ = 0;  // to steps that have not ended
+    bool isShown_;
 };
 
 // "step 3 of 10, 25 %, at most 12 s left"; of one alone without the first part, and without the

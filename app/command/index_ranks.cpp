@@ -38,8 +38,8 @@ struct MpiProgram {
     ~MpiProgram() { MPI_Finalize(); }
 };
 
-// Whether each rank of a machine can sort a step of its own: the field, its sorted list, and a
-// quarter for all else.
+// Whether each rank of a machine can sort a step of its own: the field, its sorted list, which is
+// made at once where most points have one value, and a quarter for all else.
 bool fitsEach(const timeseries::Variable& variable, unsigned ranksOfMachine) {
     const std::uint64_t value =
         timeseries::withType(variable.type, [](auto of) { return std::uint64_t{sizeof of}; });
@@ -217,7 +217,8 @@ IndexedSteps indexAll(const Ranks& ranks, const IndexOptions& options,
         try {
             const StepMaker::Kept kept = together.keep(task);
             if (ranks.isFirst()) ++done.of(kept);
-            progress.finish(0, kept == StepMaker::Kept::Before || kept == StepMaker::Kept::NoRoom);
+            progress.finish(0,
+                            kept != StepMaker::Kept::Written && kept != StepMaker::Kept::Changed);
         } catch (const timeseries::RanksError& error) {  // all have it
             if (ranks.isFirst()) done.fail(error.what());
             progress.finish(0, true);

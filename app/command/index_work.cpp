@@ -95,7 +95,9 @@ IndexWork::IndexWork(const IndexOptions& options, std::shared_ptr<StepStore> sto
 }
 
 IndexWork::~IndexWork() {
-    if (std::uncaught_exceptions() > 0) tellErrors(done_);
+    if (std::uncaught_exceptions() == 0) return;
+    progress_.end();
+    tellErrors(done_);
 }
 
 void IndexedSteps::fail(const std::string& why, std::size_t steps) {
@@ -141,8 +143,8 @@ void IndexWork::work() {
             why = error.what();
         }
         finish(kept, why);
-        progress_.finish(
-            written, !kept || kept == StepMaker::Kept::Before || kept == StepMaker::Kept::NoRoom);
+        progress_.finish(written,
+                         kept != StepMaker::Kept::Written && kept != StepMaker::Kept::Changed);
     }
 }
 
@@ -171,6 +173,7 @@ int tellIndexed(IndexedSteps done, StepStore& store) {
         --done.of(from);
         ++done.of(StepMaker::Kept::NoRoom);
     }
+    for (const std::string& note : store.takeNotes()) sayTo(stderr, "note: {}\n", note);
     tellErrors(done);
     std::uint64_t bytes = 0;
     for (const timeseries::StoredFile& entry : timeseries::storedFiles(store.folder()))

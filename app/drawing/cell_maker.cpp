@@ -18,9 +18,11 @@ void CellMaker::want(const Screen& screen) {
     const render::PlacedPoints& placed = screen.held->placed;
     shared_->wanted = step.get();
     if (!needsCells(screen.explorer, *step, placed)) return;
-    if (const auto [values, cells] = CellIndex::bytesOf(step->grid(), step->type());
-        values + cells > static_cast<double>(memoryBudget()))
-        return step->giveUpCells();
+    const auto needed = cellsNeeded(screen.explorer, step->type());
+    if (!step->cellsIfMade(needed)) {
+        const auto [values, cells] = CellIndex::bytesOf(step->grid(), step->type());
+        if (values + cells > static_cast<double>(memoryBudget())) return step->giveUpCells();
+    }
     const std::uint64_t points = step->grid().count();
     if (points <= kCellsAtOnce) step->cells();
     // Null where they are there, or nothing asks for them.
@@ -32,11 +34,11 @@ void CellMaker::want(const Screen& screen) {
         step->gradients(mesh);
         mesh = nullptr;
     }
-    if ((step->cellsIfMade() && !mesh) || shared_->busy.exchange(true)) return;
+    const bool fewMore = step->cellsIfMade(needed) && shared_->noMore == step.get();
+    if (((step->cellsIfMade() || fewMore) && !mesh) || shared_->busy.exchange(true)) return;
     // Cells that are shown first, which takes a tenth of the time of all; gradients, unless another
     // step is shown by then; then whatever may be.
-    std::thread([step, mesh, needed = cellsNeeded(screen.explorer, step->type()),
-                 shared = shared_] {
+    std::thread([step, mesh, needed, fewMore, shared = shared_] {
         try {
             step->cells(needed);
             if (mesh && shared->wanted == step.get()) {
@@ -46,9 +48,12 @@ void CellMaker::want(const Screen& screen) {
                     shared->failed = step.get();
                 }
             }
-            step->cells();
+            if (!fewMore) step->cells();
         } catch (const std::bad_alloc&) {
-            step->giveUpCells();
+            if (step->cellsIfMade(needed))
+                shared->noMore = step.get();
+            else
+                step->giveUpCells();
         } catch (...) {  // for want of threads, or its file is gone: points are drawn, as before
         }
         shared->busy = false;

@@ -23,6 +23,8 @@ class CellMaker {
     struct Shared {
         std::atomic<bool> busy = false;
         std::atomic<const timeseries::SortedStep*> wanted = nullptr, failed = nullptr;
+        // Of which all those are there for which there is memory.
+        std::atomic<const timeseries::SortedStep*> noMore = nullptr;
     };
     std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
 };

@@ -10,13 +10,16 @@ render::Legend Telling::legend(const Screen& screen, const render::Scene& scene,
     Explorer e = screen.explorer;
     e.view = {};                                  // nothing is said of it
     const bool byCells = scene.cells != nullptr;  // they may come later
-    if (!legend_ || of_ != e || step_.lock() != screen.sorted || byCells_ != byCells) {
+    const bool givenUp = screen.sorted->cellsAreGivenUp();
+    if (!legend_ || of_ != e || step_.lock() != screen.sorted || byCells_ != byCells ||
+        givenUp_ != givenUp) {
         if (!sameData(of_, e)) mixed_ = false;
         legend_ = makeLegend(screen.explorer, screen.variable, screen.step, scene,
                              screen.explorer.play.tick);
         of_ = std::move(e);
         step_ = screen.sorted;
         byCells_ = byCells;
+        givenUp_ = givenUp;
         view_.reset();
     }
     if (atRest && view_ != screen.explorer.view) {

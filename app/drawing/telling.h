@@ -22,7 +22,7 @@ class Telling {
     Explorer of_;
     std::weak_ptr<const timeseries::SortedStep> step_;
     std::optional<ViewChoice> view_;  // for which `mixed_` is known
-    bool mixed_ = false, byCells_ = false;
+    bool mixed_ = false, byCells_ = false, givenUp_ = false;
 };
 
 }  // namespace app

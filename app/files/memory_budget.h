@@ -16,7 +16,8 @@ inline std::atomic<std::uint64_t> chosenMemory{0};
 // sorted, and the pictures; 1 GiB at least.
 inline std::uint64_t memoryBudget() {
     if (const std::uint64_t chosen = chosenMemory) return chosen;
-    return std::max(timeseries::machineMemory() / 4, std::uint64_t{1} << 30);
+    static const std::uint64_t quarter = timeseries::machineMemory() / 4;
+    return std::max(quarter, std::uint64_t{1} << 30);
 }
 
 }  // namespace app

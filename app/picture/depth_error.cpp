@@ -260,7 +260,8 @@ DepthErrors depthErrorsOf(const Explorer& explorer, const timeseries::SortedStep
 std::vector<Rung> rungsOf(const Explorer& explorer, const timeseries::SortedStep& step) {
     const Explorer byCells =
         modelOf(explorer) == Model::Cells ? explorer : allBy(Model::Cells, explorer);
-    return ladder({.cells = step.cellsIfMade(cellsNeeded(byCells, step.type())) != nullptr,
+    const bool areThere = step.cellsIfMade(cellsNeeded(byCells, step.type())) != nullptr;
+    return ladder({.cells = areThere && !step.cellsAreGivenUp(),
                    .coarsePoints = mayBeCoarse(explorer.footprint)});
 }
 

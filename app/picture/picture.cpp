@@ -68,7 +68,7 @@ bool needsGradients(const Explorer& e, const SortedStep& step, const render::Pla
 }
 
 bool needsCells(const Explorer& e, const SortedStep& step, const render::PlacedPoints& placed) {
-    return modelOf(e) == Model::Cells && step.canHaveCells() &&
+    return modelOf(e) == Model::Cells && step.canHaveCells() && !step.cellsAreGivenUp() &&
            (!mixesModels(e) || render::MixedSum::canSum(placed, e.footprint));
 }
 
@@ -86,7 +86,7 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
         scene.cells = await == Await::Cells ? step.cells(needed) : step.cellsIfMade(needed);
     }
     if (scene.cells && isLit(e, step.grid())) scene.light = e.light;
-    if (scene.cells && needsGradients(e, step, placed))
+    if (scene.cells && placed.isMesh() && isLit(e, step.grid()))
         scene.gradients = await == Await::Cells ? step.gradients(placed.mesh())
                                                 : step.gradientsIfMade(placed.mesh());
     if (e.lamp) scene.lamp = directionOf(e.lamp->azimuthDegrees, e.lamp->elevationDegrees);

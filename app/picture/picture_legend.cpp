@@ -252,6 +252,8 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
             legend.notes.push_back(which + kByPointsAlone);
     } else if (modelOf(e) == Model::Cells && !scene.step.canHaveCells()) {
         legend.notes.push_back(fmt::format("drawn by points: {}", scene.step.whyNoCells()));
+    } else if (modelOf(e) == Model::Cells && scene.step.cellsAreGivenUp()) {
+        legend.notes.emplace_back("drawn by points: there is no memory for so many cells");
     } else if (mixesModels(e) && !render::MixedSum::canSum(scene.placed, e.footprint)) {
         legend.notes.emplace_back(
             "drawn by points: the splats of one layer have no order among another's cells here");

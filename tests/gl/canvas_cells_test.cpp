@@ -232,7 +232,19 @@ TEST_F(CanvasOfNoise, CellsBeyondTheMemoryForStepsAreDrawnByPointsAndThePictureS
     EXPECT_FALSE(report_.cells) << "but points";
     EXPECT_EQ(report_.drawn, report_.selected);
     EXPECT_NE(image, points) << "for its words";
-    EXPECT_EQ(world_.steps[0]->whyNoCells(), "so many cells would not fit the memory");
+    EXPECT_TRUE(world_.steps[0]->cellsAreGivenUp());
+}
+
+// By the thread that makes them, after a picture without a word of it.
+TEST_F(CanvasOfNoise, CellsThatAreGivenUpLaterAreTold) {
+    world_ = tests::ShownSteps(102, 1);
+    world_.explorer.model = Model::Cells;
+    const Image before = draw(world_.shown())[0];
+    EXPECT_TRUE(report_.lacksCells);
+    world_.steps[0]->giveUpCells();
+    const Image after = draw(world_.shown())[0];
+    EXPECT_FALSE(report_.lacksCells);
+    EXPECT_NE(after, before) << "for its words";
 }
 
 // Each tetrahedron is lit by its own gradient until then.

@@ -60,12 +60,16 @@ TYPED_TEST(StepsOfFields, AreTheBytesOfTheList) {
 
 // 2^23 points are found together at least: here those, then a few.
 TEST(StepOfField, IsFoundAPartAfterTheOther) {
-    const auto expectSameParts = []<typename T>(T, HowOften spread) {
-        expectSameBytes(fieldOf<T>({256, 256, 130}, spread, false, 5), 2, 1);
+    const auto expectSameParts = []<typename T>(T) {
+        expectSameBytes(fieldOf<T>({256, 256, 130}, HowOften::Crowded, false, 5), 2, 1);
     };
-    expectSameParts(std::uint8_t(), HowOften::Crowded);
-    expectSameParts(float(), HowOften::Even);
-    expectSameParts(double(), HowOften::Crowded);
+    expectSameParts(std::uint8_t());
+    expectSameParts(double());
+}
+
+// Twice 2^23 at once, which two groups of blocks are made of, and then the rest.
+TEST(StepOfField, IsFoundSeveralGroupsAtOnce) {
+    expectSameBytes(fieldOf<float>({256, 256, 340}, HowOften::Even, true, 5), 2, 1 << 23);
 }
 
 // Of quantiles, which are of finite values.

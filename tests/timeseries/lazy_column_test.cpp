@@ -261,7 +261,7 @@ TYPED_TEST(ValueBucketsOf, ValuesWithinAreThoseThatCompareSo) {
     using T = TypeParam;
     std::mt19937_64 random(61);
     for (int round = 0; round < 300; ++round) {
-        const World<T> world = randomWorld<T>(random, 1 + random() % 200);
+        const World<T> world = randomWorld<T>(random, 1 + random() % kWithinAtOnce);
         const T a = boundOf(world, random), b = boundOf(world, random);
         const Interval<T> in{std::min(a, b), std::max(a, b)};
         PlacesWithin<T> places;

@@ -27,13 +27,14 @@ using testing::IsEmpty;
 class OtherProcesses {
  public:
     OtherProcesses() {
-        if (::pipe(untilClosed_.data()) != 0) throw std::runtime_error("no pipe");
+        if (::pipe(untilClosed_.data()) != 0 || ::pipe(begun_.data()) != 0)
+            throw std::runtime_error("no pipe");
     }
     OtherProcesses(const OtherProcesses&) = delete;
     OtherProcesses& operator=(const OtherProcesses&) = delete;
     ~OtherProcesses() {
         (void)end();
-        ::close(untilClosed_[0]);
+        for (const int end : {untilClosed_[0], begun_[0], begun_[1]}) ::close(end);
     }
 
     void start(const std::function<void()>& again) {
@@ -43,12 +44,23 @@ class OtherProcesses {
         ::close(untilClosed_[1]);
         pollfd closed{untilClosed_[0], POLLIN, 0};
         try {
+            again();
+            if (::write(begun_[1], "", 1) != 1) ::_exit(1);
             do again();
             while (::poll(&closed, 1, 0) == 0);
         } catch (...) {
             ::_exit(1);
         }
         ::_exit(0);
+    }
+    // Until each has done it once.
+    void waitForAll() const {
+        constexpr int kPatience = 60'000;  // ms
+        pollfd begun{begun_[0], POLLIN, 0};
+        char byte;
+        for (std::size_t i = 0; i < children_.size(); ++i)
+            if (::poll(&begun, 1, kPatience) != 1 || ::read(begun_[0], &byte, 1) != 1)
+                throw std::runtime_error("one has not begun");
     }
     // Whether none of them failed.
     bool end() {
@@ -63,7 +75,7 @@ class OtherProcesses {
     }
 
  private:
-    std::array<int, 2> untilClosed_{};
+    std::array<int, 2> untilClosed_{}, begun_{};
     std::vector<pid_t> children_;
 };
 
@@ -89,6 +101,7 @@ TEST_F(StepStores, OfProcessesThatWriteOneStepAllHaveItWholeOrNotAtAll) {
         expectAll(store->write(of, *stamp, opened,
                                [&](WholeFile& to) { return writeField(field, stamp->text, to); }));
     });
+    writers.waitForAll();
     int stored = 0;
     for (int look = 0; look < tests::rounds(100); ++look) {
         const std::string bytes = tests::readBytes(path);

@@ -1,7 +1,9 @@
 // A field's points looked at and counted on several threads.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <span>

@@ -268,6 +268,7 @@ std::shared_ptr<const CellIndex> SortedStep::cellsIfMade(
 }
 
 void SortedStep::giveUpCells() const { cells_->giveUp(); }
+bool SortedStep::cellsAreGivenUp() const { return cells_->areGivenUp(); }
 
 std::shared_ptr<const PointGradients> SortedStep::gradients(
     const std::shared_ptr<const Mesh>& mesh) const {
@@ -282,7 +283,6 @@ std::shared_ptr<const PointGradients> SortedStep::gradientsIfMade(
 
 std::string_view SortedStep::whyNoCells() const {
     if (const std::string_view why = whyNothingBetween(); !why.empty()) return why;
-    if (cells_->areGivenUp()) return kTooMany;
     const bool isAllThere = size_ == statistics_.points || cells_->fieldIfThere();
     return isAllThere ? "" : "cells need every value kept";
 }

@@ -163,8 +163,9 @@ class SortedStep {
     // Null as long as nobody has made them.
     std::shared_ptr<const CellIndex> cellsIfMade(const std::vector<Interval<double>>& among = {
                                                      kAllNumbers}) const;
-    // From now on it can have none: there is no memory for them.
+    // Nobody is to make them any more: there is no memory for them.
     void giveUpCells() const;
+    bool cellsAreGivenUp() const;
     // How the field changes about its points on this mesh, its grid's or what a map makes of that:
     // made when it is first asked for, and kept until that of another is. REQUIRES: canHaveCells().
     std::shared_ptr<const PointGradients> gradients(const std::shared_ptr<const Mesh>& mesh) const;

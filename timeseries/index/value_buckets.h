@@ -14,6 +14,7 @@ namespace timeseries {
 template <typename T>
 class ValueBuckets {
  public:
+    // `size.passed`: only of who asks for points once.
     ValueBuckets(std::span<const T> field, const std::vector<bool>& missing,
                  std::span<const Interval<T>> kept, const PartitionSize& size = {});
     ~ValueBuckets();

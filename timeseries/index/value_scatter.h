@@ -125,12 +125,15 @@ void scatterAll(const FieldPoints<T>& points, std::vector<std::vector<std::uint6
                 const Slot& slotOf, const Among& among,
                 const std::function<void(std::size_t, std::size_t)>& passed, Partition<T>& out) {
     constexpr std::size_t kAtOnce = std::size_t{1} << 22;
+    const std::size_t slots = starts.front().size();
     const auto threads = static_cast<unsigned>(starts.size());
     sharing(threads, [&](unsigned k) {
         Scatter<T, kValues> scatter(out, std::move(starts[k]));
         const auto put = [&](std::size_t i, T value) {
             const auto key = orderedKey(value);
-            scatter.put(slotOf(key), i, valueOfKey<T>(key));
+            // Beyond them where a library has made this thread take the least numbers for 0.
+            if (const std::size_t slot = slotOf(key); slot < slots)
+                scatter.put(slot, i, valueOfKey<T>(key));
         };
         const std::size_t end = points.begin(k + 1, threads);
         for (std::size_t from = points.begin(k, threads), to = 0; from < end; from = to) {

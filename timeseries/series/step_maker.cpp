@@ -124,8 +124,9 @@ void expectThere(const StepOrigin& origin) {
 }
 
 std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std::size_t step) {
+    bool changed = false;
     for (const auto& store : stores_.read) {
-        auto file = store->find(origin);
+        auto file = store->find(origin, &changed);
         if (!file || file->type() != variable().type) continue;
         const auto source = std::make_shared<const Reopened>(
             Reopened{files_, variable().name, step, store, origin, file->about()});
@@ -143,6 +144,9 @@ std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std:
         } catch (const StepFileError&) {  // of another grid: its file has changed
         }
     }
+    // Of thousands the first.
+    if (changed && !std::exchange(toldChanged_, true))
+        stores_.read.front()->tellChanged(origin.files.front());
     return nullptr;
 }
 

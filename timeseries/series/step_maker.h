@@ -19,7 +19,7 @@ namespace timeseries {
 struct StepStores {
     std::vector<std::shared_ptr<StepStore>> read;  // in this order
     std::shared_ptr<StepStore> write = nullptr;    // null: nothing is written
-    // Steps of fewer points are sorted as soon as a file is read.
+    // make(): steps of fewer points are sorted as soon as a file is read.
     std::uint64_t worthWriting = 8'000'000;
 };
 
@@ -80,6 +80,7 @@ class StepMaker {
     const RangeSet kept_, asked_;
     const Holds holds_;
     StepStores stores_;
+    bool toldChanged_ = false;
     std::deque<Unwritten> unwritten_;  // the first built first
 };
 

@@ -107,15 +107,15 @@ fs::path StepStore::pathOf(const StepOrigin& origin, std::span<const std::string
     return folder_ / fmt::format("{:016x}{:016x}{}", hash.high64, hash.low64, kStoredSuffix);
 }
 
-std::shared_ptr<const StepFile> StepStore::find(const StepOrigin& origin) {
-    auto file = look(origin);
+std::shared_ptr<const StepFile> StepStore::find(const StepOrigin& origin, bool* changed) {
+    auto file = look(origin, changed);
     if (!file) return nullptr;
     // When it was used last; a folder that cannot be written to keeps what it has.
     (void)::utimensat(AT_FDCWD, file->name().c_str(), nullptr, 0);
     return file;
 }
 
-std::shared_ptr<const StepFile> StepStore::look(const StepOrigin& origin) {
+std::shared_ptr<const StepFile> StepStore::look(const StepOrigin& origin, bool* changed) {
     const std::vector<std::string> names = namesOf(origin);
     const fs::path path = pathOf(origin, names);
     const auto stamp = stampOf(origin, names);
@@ -125,7 +125,7 @@ std::shared_ptr<const StepFile> StepStore::look(const StepOrigin& origin) {
         if (!bytes) return nullptr;
         auto file = std::make_shared<const StepFile>(std::move(bytes));
         if (file->about() == stamp->text) return file;
-        if (filesOf(file->about()) != filesOf(stamp->text)) tellChanged(origin.files.front());
+        if (changed && filesOf(file->about()) != filesOf(stamp->text)) *changed = true;
     } catch (const DamagedStepError& error) {
         discard(path, error.what());
     } catch (const StepFileError& error) {
@@ -224,12 +224,9 @@ void StepStore::discard(const fs::path& path, const std::string& why) {
          ", and the step is read from its own file");
 }
 
-// Of thousands of steps the first alone.
 void StepStore::tellChanged(const fs::path& file) {
-    if (!hasToldChanged_.exchange(true))
-        note(file.string() +
-             ": it has changed since it was sorted; it, and others that have, are "
-             "sorted anew");
+    note(file.string() +
+         ": it has changed since it was sorted; it, and others that have, are sorted anew");
 }
 
 void StepStore::giveUp(const std::string& why) {

@@ -2,7 +2,6 @@
 // sorted once is opened, not sorted again.
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -58,11 +57,11 @@ class StepStore {
     const std::filesystem::path& folder() const { return folder_; }
     // None when a file of it is not there.
     std::optional<OriginStamp> stampOf(const StepOrigin& origin) const;
-    // Null where there is none, or it was made of what the origin no longer is, which is told of
-    // the first; what is damaged is removed and told.
-    std::shared_ptr<const StepFile> find(const StepOrigin& origin);
+    // Null where there is none, or it was made of what the origin no longer is, whose files may
+    // have `changed` since; what is damaged is removed and told.
+    std::shared_ptr<const StepFile> find(const StepOrigin& origin, bool* changed = nullptr);
     // As find(), but it does not count as use.
-    std::shared_ptr<const StepFile> look(const StepOrigin& origin);
+    std::shared_ptr<const StepFile> look(const StepOrigin& origin, bool* changed = nullptr);
     // The file that a step is, or would be, in.
     std::filesystem::path pathOf(const StepOrigin& origin) const;
 
@@ -81,6 +80,8 @@ class StepStore {
                 const std::function<bool(WholeFile&)>& into);
     // Steps cannot be written there: why, is told.
     void giveUp(const std::string& why);
+    // A file of steps that will be sorted anew.
+    void tellChanged(const std::filesystem::path& file);
 
     // The last used first. Throws StepFileError where the folder is none, or cannot be listed.
     std::vector<StoredFile> list() const;
@@ -112,7 +113,6 @@ class StepStore {
                                  std::span<const std::string> names) const;
     void removeLeftovers();
     void note(std::string text);
-    void tellChanged(const std::filesystem::path& file);
 
     const std::filesystem::path folder_;
     const StoreKind kind_;
@@ -121,7 +121,6 @@ class StepStore {
     mutable std::mutex mutex_;
     std::vector<std::string> notes_, told_;  // guarded by mutex_, as what follows
     bool isTidied_ = false;
-    std::atomic<bool> hasToldChanged_ = false;
 };
 
 // A tenth of the disk that the folder is, or would be, on, at most 64 GiB.
