@@ -22,7 +22,7 @@ class IndexProgress {
 
     // So much more of a step is written, of 1.
     void add(double share);
-    // A step has ended, of which so much was added; the quick ones were there already.
+    // A step has ended, of which so much was added; quick ones tell nothing of the others.
     void finish(double added, bool isQuick);
     // Nothing is told any more.
     void end();

@@ -217,11 +217,10 @@ IndexedSteps indexAll(const Ranks& ranks, const IndexOptions& options,
         try {
             const StepMaker::Kept kept = together.keep(task);
             if (ranks.isFirst()) ++done.of(kept);
-            progress.finish(0,
-                            kept != StepMaker::Kept::Written && kept != StepMaker::Kept::Changed);
+            progress.finish(0, isQuick(kept));
         } catch (const timeseries::RanksError& error) {  // all have it
             if (ranks.isFirst()) done.fail(error.what());
-            progress.finish(0, true);
+            progress.finish(0, isQuick({}));
         }
     }
     std::array<std::uint64_t, StepMaker::kKept> sums{};

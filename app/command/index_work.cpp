@@ -143,8 +143,7 @@ void IndexWork::work() {
             why = error.what();
         }
         finish(kept, why);
-        progress_.finish(written,
-                         kept != StepMaker::Kept::Written && kept != StepMaker::Kept::Changed);
+        progress_.finish(written, isQuick(kept));
     }
 }
 

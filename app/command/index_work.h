@@ -44,6 +44,13 @@ struct IndexedSteps {
     std::size_t all() const { return std::accumulate(kept.begin(), kept.end(), failed); }
 };
 
+// Steps that are not written take little time, and tell nothing of the others'; without a value
+// those that could not be read.
+inline bool isQuick(std::optional<timeseries::StepMaker::Kept> kept) {
+    return kept != timeseries::StepMaker::Kept::Written &&
+           kept != timeseries::StepMaker::Kept::Changed;
+}
+
 // Shared by the threads that do it.
 class IndexWork {
  public:

@@ -34,11 +34,11 @@ void CellMaker::want(const Screen& screen) {
         step->gradients(mesh);
         mesh = nullptr;
     }
-    const bool fewMore = step->cellsIfMade(needed) && shared_->noMore == step.get();
-    if (((step->cellsIfMade() || fewMore) && !mesh) || shared_->busy.exchange(true)) return;
+    const bool areAllThatFit = step->cellsIfMade(needed) && shared_->noMore == step.get();
+    if (((step->cellsIfMade() || areAllThatFit) && !mesh) || shared_->busy.exchange(true)) return;
     // Cells that are shown first, which takes a tenth of the time of all; gradients, unless another
     // step is shown by then; then whatever may be.
-    std::thread([step, mesh, needed, fewMore, shared = shared_] {
+    std::thread([step, mesh, needed, areAllThatFit, shared = shared_] {
         try {
             step->cells(needed);
             if (mesh && shared->wanted == step.get()) {
@@ -48,7 +48,7 @@ void CellMaker::want(const Screen& screen) {
                     shared->failed = step.get();
                 }
             }
-            if (!fewMore) step->cells();
+            if (!areAllThatFit) step->cells();
         } catch (const std::bad_alloc&) {
             if (step->cellsIfMade(needed))
                 shared->noMore = step.get();

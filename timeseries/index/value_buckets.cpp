@@ -7,6 +7,7 @@
 #include "timeseries/index/field_points.h"
 #include "timeseries/index/value_bins.h"
 #include "timeseries/index/value_scatter.h"
+#include "timeseries/index/values_within.h"
 
 namespace timeseries {
 namespace {
@@ -137,11 +138,8 @@ Partition<T> ValueBuckets<T>::points(std::size_t first, std::size_t end) const {
     return out;
 }
 
-template class ValueBuckets<std::uint32_t>;
-template class ValueBuckets<std::int32_t>;
-template class ValueBuckets<std::uint64_t>;
-template class ValueBuckets<std::int64_t>;
-template class ValueBuckets<float>;
-template class ValueBuckets<double>;
+#define ISOCHRON_BUCKETS(T, name) template class ValueBuckets<T>;
+ISOCHRON_WIDE_TYPES(ISOCHRON_BUCKETS)
+#undef ISOCHRON_BUCKETS
 
 }  // namespace timeseries

@@ -79,6 +79,7 @@ Partition<T> partition(std::span<const T> field, const std::vector<bool>& missin
         return buckets.points(0, buckets.about().least.size());
     }
 }
+
 #define PARTITION(T)                                                              \
     template Partition<T> partition(std::span<const T>, const std::vector<bool>&, \
                                     std::span<const Interval<T>>, const PartitionSize&);

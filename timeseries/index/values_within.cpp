@@ -43,17 +43,12 @@ HWY_INLINE std::size_t within(const T* HWY_RESTRICT values, std::size_t count, T
 }
 
 // Of one type each: these are what a table of targets can hold.
-#define ISOCHRON_WITHIN(T, name)                                                      \
-    std::size_t name(const T* values, std::size_t count, const Interval<T>& interval, \
-                     OrderedKey<T>* places) {                                         \
-        return within(values, count, interval.lo, interval.hi, places);               \
+#define ISOCHRON_WITHIN(T, name)                                                              \
+    std::size_t within##name(const T* values, std::size_t count, const Interval<T>& interval, \
+                             OrderedKey<T>* places) {                                         \
+        return within(values, count, interval.lo, interval.hi, places);                       \
     }
-ISOCHRON_WITHIN(std::uint32_t, withinU32)
-ISOCHRON_WITHIN(std::int32_t, withinI32)
-ISOCHRON_WITHIN(std::uint64_t, withinU64)
-ISOCHRON_WITHIN(std::int64_t, withinI64)
-ISOCHRON_WITHIN(float, withinF32)
-ISOCHRON_WITHIN(double, withinF64)
+ISOCHRON_WIDE_TYPES(ISOCHRON_WITHIN)
 #undef ISOCHRON_WITHIN
 
 }  // namespace HWY_NAMESPACE
@@ -63,19 +58,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace timeseries {
 
-#define ISOCHRON_WITHIN(T, name)                                                                  \
-    HWY_EXPORT(name);                                                                             \
-    template <>                                                                                   \
-    std::size_t valuesWithin<T>(std::span<const T> values, const Interval<T>& interval,           \
-                                PlacesWithin<T>& places) {                                        \
-        return HWY_DYNAMIC_DISPATCH(name)(values.data(), values.size(), interval, places.data()); \
+#define ISOCHRON_WITHIN(T, name)                                                          \
+    HWY_EXPORT(within##name);                                                             \
+    template <>                                                                           \
+    std::size_t valuesWithin<T>(std::span<const T> values, const Interval<T>& interval,   \
+                                PlacesWithin<T>& places) {                                \
+        return HWY_DYNAMIC_DISPATCH(within##name)(values.data(), values.size(), interval, \
+                                                  places.data());                         \
     }
-ISOCHRON_WITHIN(std::uint32_t, withinU32)
-ISOCHRON_WITHIN(std::int32_t, withinI32)
-ISOCHRON_WITHIN(std::uint64_t, withinU64)
-ISOCHRON_WITHIN(std::int64_t, withinI64)
-ISOCHRON_WITHIN(float, withinF32)
-ISOCHRON_WITHIN(double, withinF64)
+ISOCHRON_WIDE_TYPES(ISOCHRON_WITHIN)
 #undef ISOCHRON_WITHIN
 
 }  // namespace timeseries

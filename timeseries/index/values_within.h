@@ -23,15 +23,14 @@ using PlacesWithin = std::array<OrderedKey<T>, kWithinAtOnce>;
 template <typename T>
 std::size_t valuesWithin(std::span<const T> values, const Interval<T>& interval,
                          PlacesWithin<T>& places);
-#define ISOCHRON_WITHIN(T) \
-    template <>            \
+// With a name each.
+#define ISOCHRON_WIDE_TYPES(use)                                                                  \
+    use(std::uint32_t, U32) use(std::int32_t, I32) use(std::uint64_t, U64) use(std::int64_t, I64) \
+        use(float, F32) use(double, F64)
+#define ISOCHRON_WITHIN(T, name) \
+    template <>                  \
     std::size_t valuesWithin<T>(std::span<const T>, const Interval<T>&, PlacesWithin<T>&);
-ISOCHRON_WITHIN(std::uint32_t)
-ISOCHRON_WITHIN(std::int32_t)
-ISOCHRON_WITHIN(std::uint64_t)
-ISOCHRON_WITHIN(std::int64_t)
-ISOCHRON_WITHIN(float)
-ISOCHRON_WITHIN(double)
+ISOCHRON_WIDE_TYPES(ISOCHRON_WITHIN)
 #undef ISOCHRON_WITHIN
 
 }  // namespace timeseries
