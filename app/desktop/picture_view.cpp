@@ -149,6 +149,8 @@ void PictureView::predictError() {
     measured_.reset();
     performance_.errors =
         errorsOf_ == selectionOf(content_->explorer) ? errors_ : std::optional<DepthErrors>();
+    if (const auto& step = *content_->sorted; !hasDepthError(step))
+        performance_.errors.emplace().whyNone = step.whyNoCells();
     performance_.isErrorOfAnother = true;
 }
 

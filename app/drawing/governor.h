@@ -49,9 +49,17 @@ class Governor {
 
  private:
     void follow(const Drawn& drawn, std::chrono::nanoseconds since);
+    // Where cells were found to take too long, as in a first frame that made room for them, none
+    // are drawn, and nothing tells when they would fit. So after a while without they may take all
+    // of the time, after each further one twice as much: up to twice the time, or eight times where
+    // few frames have told what one takes. Whiles are twice as long after what was too slow.
+    bool mayTryCells() const { return withoutCells_ > patience_; }
+    std::uint64_t mostCells() const;
 
     Rise rise_;
-    render::FramePace points_{std::chrono::milliseconds(8)}, cells_{std::chrono::milliseconds(8)};
+    std::chrono::nanoseconds target_ = std::chrono::milliseconds(8);
+    render::FramePace points_{target_}, cells_{target_};
+    unsigned withoutCells_ = 0, patience_ = kPatience;  // frames
     // Where a rise is to be proven, the most points:
     std::uint64_t proven_ = render::FramePace::kFirst;
     std::uint64_t risen_ = 0;  // the least that would have fitted for so long:
@@ -60,6 +68,7 @@ class Governor {
     static constexpr std::chrono::nanoseconds kWait = std::chrono::milliseconds(500),
                                               kLongestWait = std::chrono::seconds(2),
                                               kCalm = std::chrono::seconds(10);
+    static constexpr unsigned kPatience = 12, kMostPatience = 2048;
 };
 
 }  // namespace app

@@ -137,7 +137,8 @@ void LiveSteps::retry(std::size_t step) {
 }
 
 void LiveSteps::ask() {
-    using Haste = timeseries::StepLoader::Haste;
+    using timeseries::StepLoader;
+    using Haste = StepLoader::Haste;
     std::vector<std::size_t> missing = series_.want(wished_);
     const Haste haste = missing.empty() ? Haste::Nobody : Haste::Waited;
     if (missing.empty()) {
@@ -145,8 +146,9 @@ void LiveSteps::ask() {
             return series_.summary(step) != nullptr || series_.state(step) == SlotState::Failed;
         };
         while (seenBelow_ < series_.stepCount() && seen(seenBelow_)) ++seenBelow_;
-        // Two, so that the loader does not wait for the next frame.
-        for (std::size_t step = seenBelow_; step < series_.stepCount() && missing.size() < 2;
+        // As many as the loader goes ahead, so that it does not wait for the next frame.
+        constexpr std::size_t kMost = StepLoader::kMostAhead;
+        for (std::size_t step = seenBelow_; step < series_.stepCount() && missing.size() < kMost;
              ++step)
             if (!seen(step)) missing.push_back(step);
     }

@@ -14,7 +14,7 @@ namespace app::headset {
 struct SeenPicture {
     const Screen* screen = nullptr;
     std::optional<PointCounts> counts = {};
-    std::string error = {};  // as it is said; "" where it is not known
+    std::string error = {};  // as it is said; "" where there is none
     bool mixesColors = false;
 };
 

@@ -37,6 +37,8 @@ void SeenError::update(const Screen& screen, const render::View& view, Clock::ti
         errors_.reset();
         selection_ = std::move(selection);
         since_ = now;
+        if (const auto& step = *screen.sorted; !hasDepthError(step))
+            errors_.emplace().whyNone = step.whyNoCells();
     }
     const bool isKnown = errors_ && (parts == Parts::None || known_ == Parts::All);
     if (isKnown || now - since_ < kStands || !isReady(screen)) return;
@@ -57,8 +59,9 @@ std::optional<double> SeenError::of(const Explorer& explorer) const {
 }
 
 std::string SeenError::text(const Rung& drawn) const {
+    if (since_ == Clock::time_point()) return "";
     const RungError* const error = errors_ ? errors_->find(drawn) : nullptr;
-    if (error == nullptr) return "";
+    if (error == nullptr) return unknownErrorText(errors_, drawn);
     const std::string depth = depthErrorText(error->depth, boundOf(*error, drawn));
     return depth.empty() ? "" : depth + lightErrorText(*error, errors_->ordering);
 }

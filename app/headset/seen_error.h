@@ -26,7 +26,8 @@ class SeenError {
     const std::optional<DepthErrors>& errors() const { return errors_; }
     // Of all that this selects, drawn whole.
     std::optional<double> of(const Explorer& explorer) const;
-    // Of what is drawn, as it is said: "error about 3 %"; "" where it is not known.
+    // Of what is drawn, as it is said: "error about 3 %", or that it is not known, or not yet; ""
+    // where nothing is seen, or nothing was yet.
     std::string text(const Rung& drawn) const;
 
  private:

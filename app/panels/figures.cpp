@@ -40,7 +40,7 @@ std::string limitText(const Performance& p) {
 
 std::string errorFigure(const Performance& p) {
     const RungError* const error = p.told();
-    if (error == nullptr) return "";
+    if (error == nullptr) return unknownErrorText(p.errors, p.drawn());
     if (std::isnan(error->depth) && !p.isErrorOfAnother) return nothingSeenText(p.drawn().model);
     std::string depth = depthErrorText(error->depth, boundOf(*error, p.drawn()));
     if (p.isErrorOfAnother && !depth.empty())

@@ -46,6 +46,12 @@ std::string depthErrorText(double error, Bound bound) {
     return (isAbout ? "error about " : "error ") + share;
 }
 
+std::string unknownErrorText(const std::optional<DepthErrors>& errors, const Rung& drawn) {
+    if (errors && (errors->find(drawn) || (errors->rungs.empty() && errors->whyNone.empty())))
+        return "";
+    return errors && !errors->whyNone.empty() ? "error not known" : "error not known yet";
+}
+
 std::string nothingSeenText(Model drawn) {
     const std::string text = "nothing is seen of what lies in the ranges";
     return drawn == Model::Cells ? text + " between the points" : text;

@@ -18,6 +18,9 @@ Bound boundOf(const RungError& known, const Rung& drawn);
 std::string shareText(double error, Bound bound = Bound::About);
 // "error about 0.4 %"; "" where it is none that can be told.
 std::string depthErrorText(double error, Bound bound = Bound::About);
+// "error not known yet", or "error not known" where nobody will; "" where it is known, or there is
+// nothing. `errors`: of the selection that is drawn so, none while they are worked out.
+std::string unknownErrorText(const std::optional<DepthErrors>& errors, const Rung& drawn);
 // Of what is drawn so and has no error, for there is nothing: as of the one point that has a
 // field's greatest value, or from where one looks elsewhere.
 std::string nothingSeenText(Model drawn);

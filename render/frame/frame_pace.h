@@ -24,6 +24,8 @@ class FramePace {
     };
     // None while frames are too few, too small or too much alike to tell what a splat costs.
     std::optional<Cost> learnt() const;
+    // Whether many frames have told so; of few, those that were late may be most.
+    bool isSure() const;
     // Forgets its frames for what another learnt, maybe on another machine: what the next ones take
     // counts as ever. REQUIRES: finite, not negative.
     void beginFrom(const Cost& learnt);

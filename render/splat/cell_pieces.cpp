@@ -71,12 +71,15 @@ std::vector<CellList::Part> CellList::partsFrom(std::size_t layer) const {
     return parts;
 }
 
-void CellList::goOn(std::uint64_t cells) {
+std::uint64_t CellList::goOn(std::uint64_t cells) {
     constexpr std::uint64_t kForOneByFaces = 8;
-    cells -= std::min(cells, list(cells));
-    if (rank_ == nullptr || listed_ < count_) return;
-    if (placed_ < count_) return void(place(cells));
-    if (byFaces_) byFaces_->goOn(cells / kForOneByFaces + 1);
+    const std::uint64_t listed = list(cells);
+    if (rank_ == nullptr || listed_ < count_) return listed;
+    const std::uint64_t left = cells - std::min(cells, listed);
+    if (placed_ < count_) return listed + place(left);
+    if (!byFaces_) return listed;
+    byFaces_->goOn(left / kForOneByFaces + 1);
+    return cells;
 }
 
 // use(place in the list, cell, part).

@@ -114,8 +114,9 @@ class CellList {
  public:
     CellList(const Scene& scene, Channels channels, std::size_t layer,
              const CellRank* nearestFirst = nullptr, unsigned threads = sharingThreads());
-    // Goes through so many, or a few more; all are gone through once, or twice to be put in order.
-    void goOn(std::uint64_t cells);
+    // Goes through so many, or a few more, or what is left; all are gone through once, or twice to
+    // be put in order. Returns how many.
+    std::uint64_t goOn(std::uint64_t cells);
     bool done() const {
         return listed_ == count_ && (rank_ == nullptr || placed_ == count_) &&
                (!byFaces_ || byFaces_->done());

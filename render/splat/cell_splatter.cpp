@@ -155,9 +155,9 @@ CellSum::~CellSum() = default;
 std::uint64_t CellSum::add(std::uint64_t cells) {
     Work& work = *work_;
     if (!work.list.done()) {
-        const std::uint64_t count = std::min(work.mostListed(), cells);
-        work.list.goOn(kListedForOne * count);
-        return count;
+        const std::uint64_t most = std::min(work.mostListed(), cells);
+        return std::clamp<std::uint64_t>(work.list.goOn(kListedForOne * most) / kListedForOne, 1,
+                                         most);
     }
     std::uint64_t added = 0;
     const std::span<const CellOfLayer> all = work.list.cells();

@@ -37,14 +37,13 @@ MixedList::MixedList(const Scene& scene, const View& view, const timeseries::Col
     if (points_.done() && cells_.done()) rankCells(0);
 }
 
-void MixedList::goOn(std::uint64_t some) {
+std::uint64_t MixedList::goOn(std::uint64_t some) {
     if (!points_.done()) return listPoints(some);
     if (!cells_.done()) return cells_.goOn(some);
-    if (!isCounted_) return rankCells(some);
-    place(some);
+    return isCounted_ ? place(some) : rankCells(some);
 }
 
-void MixedList::listPoints(std::uint64_t some) {
+std::uint64_t MixedList::listPoints(std::uint64_t some) {
     points_.next(some, some_);
     for (std::size_t i = 0; i < some_.point.size(); ++i) {
         const std::uint32_t index = columns_.gridIndex[some_.point[i]];
@@ -53,27 +52,30 @@ void MixedList::listPoints(std::uint64_t some) {
         ranks_.push_back(rank_.ofPoint(index));
         order_.count(ranks_.back());
     }
+    return some_.point.size();
 }
 
-void MixedList::rankCells(std::uint64_t some) {
+std::uint64_t MixedList::rankCells(std::uint64_t some) {
     const std::span<const CellOfLayer> all = cells_.cells();
-    const std::size_t end = rankedCells_ + std::min<std::uint64_t>(some, all.size() - rankedCells_);
-    for (; rankedCells_ < end; ++rankedCells_) {
+    some = std::min<std::uint64_t>(some, all.size() - rankedCells_);
+    for (const std::size_t end = rankedCells_ + some; rankedCells_ < end; ++rankedCells_) {
         ranks_.push_back(rank_.ofCell(all[rankedCells_].cell));
         order_.count(ranks_.back());
     }
-    if (rankedCells_ < all.size()) return;
+    if (rankedCells_ < all.size()) return some;
     order_.allCounted();
     sorted_.resize(ranks_.size());
     isCounted_ = true;
+    return some;
 }
 
-void MixedList::place(std::uint64_t some) {
-    const std::size_t end = placed_ + std::min<std::uint64_t>(some, ranks_.size() - placed_);
-    for (; placed_ < end; ++placed_)
+std::uint64_t MixedList::place(std::uint64_t some) {
+    some = std::min<std::uint64_t>(some, ranks_.size() - placed_);
+    for (const std::size_t end = placed_ + some; placed_ < end; ++placed_)
         sorted_[order_.place(ranks_[placed_])] =
             placed_ < pointsListed_.size() ? pointsListed_[placed_]
                                            : cells_.cells()[placed_ - pointsListed_.size()];
+    return some;
 }
 
 }  // namespace render

@@ -42,16 +42,17 @@ using CellOrPoint = CellOfLayer;
 class MixedList {
  public:
     MixedList(const Scene& scene, const View& view, const timeseries::Columns& columns);
-    // Goes through so many, or a few more; all are gone through three times.
-    void goOn(std::uint64_t some);
+    // Goes through so many, or a few more, or what is left of a pass; all are gone through three
+    // times. Returns how many.
+    std::uint64_t goOn(std::uint64_t some);
     bool done() const { return isCounted_ && placed_ == ranks_.size(); }
     // REQUIRES: done().
     std::span<const CellOrPoint> all() const { return sorted_; }
 
  private:
-    void listPoints(std::uint64_t some);
-    void rankCells(std::uint64_t some);
-    void place(std::uint64_t some);
+    std::uint64_t listPoints(std::uint64_t some);
+    std::uint64_t rankCells(std::uint64_t some);
+    std::uint64_t place(std::uint64_t some);
 
     const Scene& scene_;
     const Scene onlyPoints_;

@@ -280,8 +280,8 @@ std::uint64_t MixedSum::add(std::uint64_t count) {
     while (!done() && added < count) {
         if (!work.list.done()) {
             const std::uint64_t some = std::min(kAtOnce, count - added);
-            work.list.goOn(kListedForOne * some);
-            added += some;
+            added += std::clamp<std::uint64_t>(work.list.goOn(kListedForOne * some) / kListedForOne,
+                                               1, some);
             if (done()) work.sum({}, true);  // all are clipped away
             continue;
         }

@@ -13,6 +13,19 @@ using testing::ElementsAre;
 using testing::Field;
 using testing::HasSubstr;
 
+TEST(ErrorText, SaysWhereNoErrorIsKnown) {
+    const Rung points{Model::Points}, cells{Model::Cells};
+    EXPECT_EQ(unknownErrorText({}, points), "error not known yet");
+    std::optional<DepthErrors> errors{std::in_place};
+    EXPECT_EQ(unknownErrorText(errors, points), "") << "nothing is seen";
+    errors->rungs = {{.rung = points, .depth = 0.1}};
+    EXPECT_EQ(unknownErrorText(errors, points), "");
+    EXPECT_EQ(unknownErrorText(errors, cells), "error not known yet") << "of points alone";
+    errors->rungs.clear();
+    errors->whyNone = "there is not enough memory";
+    EXPECT_EQ(unknownErrorText(errors, points), "error not known");
+}
+
 TEST(ErrorText, IsRoundedToWhatASampleTells) {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
     EXPECT_EQ(depthErrorText(0.0004), "error below 0.1 %");

@@ -3,9 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <semaphore>
 #include <thread>
 
+#include "tests/support/files.h"
+#include "tests/support/scenes.h"
 #include "tests/support/scripted_reader.h"
+#include "timeseries/index/step_file.h"
+#include "timeseries/readers/step_about.h"
+#include "timeseries/series/whole_file.h"
 
 namespace app {
 namespace {
@@ -76,6 +82,44 @@ class LiveStepsDropping : public testing::Test {
                                     [script = script_] { script->wake(); }};
     std::shared_ptr<const timeseries::SortedStep> shown_;
 };
+
+// Of 300 sorted steps the one that is wished, then those that nobody has seen: as many as come
+// before a frame asks for them. No more of their files stay open than may.
+TEST(LiveSteps, ManyStepsOnDiskComeInAFrame) {
+    constexpr std::size_t kSteps = 300, kAtOnce = timeseries::StepLoader::kMostAhead;
+    std::vector<std::filesystem::path> paths;
+    for (std::size_t i = 0; i < kSteps; ++i) {
+        timeseries::StepAbout about;
+        about.variable = "u";
+        about.time = static_cast<double>(i);
+        paths.push_back(tests::testFolder() / fmt::format("u_{:03}.isostep", i));
+        timeseries::WholeFile file(paths.back());
+        timeseries::writeStep(tests::noise(tests::cube(4)), textOf(about), file);
+        file.finish();
+    }
+    OpenDataset dataset = openDataset(paths, "");
+    std::counting_semaphore<> came{0};
+    LiveSteps steps(dataset, timeseries::RangeSet::everything(), std::uint64_t{1} << 30,
+                    [&] { came.release(); });
+    const auto poll = [&](std::size_t many) {
+        for (std::size_t i = 0; i < many; ++i)
+            if (!came.try_acquire_for(std::chrono::seconds(20))) return i;
+        return steps.poll().size();
+    };
+    steps.want({150});
+    ASSERT_EQ(poll(1), 1u);
+    for (std::size_t left = kSteps - 1, many; left > 0; left -= many) {
+        many = std::min(left, kAtOnce);
+        ASSERT_EQ(poll(many), many);
+    }
+    int open = 0;
+    for (std::size_t i = 0; i < kSteps; ++i) {
+        EXPECT_NE(steps.series().summary(i), nullptr) << i;
+        open += steps.series().isStored(i);
+    }
+    EXPECT_EQ(open, timeseries::Series::kMostOpen);
+    EXPECT_TRUE(steps.series().isStored(150));
+}
 
 TEST_F(LiveStepsDropping, FreesByAnotherThreadWhoeverLooksAtItLast) {
     EXPECT_EQ(shown_->size(), 64u);

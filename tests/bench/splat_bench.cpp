@@ -12,15 +12,17 @@
 #include "render/splat/gl_splatter.h"
 #include "render/splat/gl_targets.h"
 #include "tests/bench/scattered_splats.h"
+#include "tests/support/fragment_order.h"
 
 namespace {
 
 using namespace render;
 
 // The splatter and its targets, without read-back.
-void drawAndResolve(benchmark::State& state, Order order, bool byValue) {
+void drawAndResolve(benchmark::State& state, Order order, bool byValue,
+                    glm::ivec2 size = bench::ScatteredSplats::kSize) {
     bench::ScatteredSplats world(static_cast<std::uint64_t>(state.range(0)),
-                                 static_cast<double>(state.range(1)));
+                                 static_cast<double>(state.range(1)), tests::cube(256), size);
     const gl::HeadlessContext context;
     world.scene.order = order;
     if (byValue) world.scene.layers[0].style.color = ByValue{{}, 0.4, 0.41};
@@ -42,6 +44,9 @@ void drawAndResolve(benchmark::State& state, Order order, bool byValue) {
 void BM_DrawUnordered(benchmark::State& state) { drawAndResolve(state, Order::None, false); }
 void BM_DrawByValue(benchmark::State& state) { drawAndResolve(state, Order::None, true); }
 void BM_DrawOrdered(benchmark::State& state) { drawAndResolve(state, Order::BackToFront, true); }
+void BM_DrawEye(benchmark::State& state) {
+    drawAndResolve(state, Order::BackToFront, true, {1440, 1600});
+}
 
 // How far a frame is from the truth, as counters; the time is the truth's own. Optical depth: the
 // weights by GL against the CPU's in double. Light: linear RGB of the frame, with splats in both
@@ -121,12 +126,31 @@ BENCHMARK(BM_ErrorAgainstTruth)
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 
+// Splats in the order of their centres beside their fragments in order, pixel by pixel.
+void BM_OffFragments(benchmark::State& state) {
+    const tests::SmoothScene smooth(static_cast<double>(state.range(0)) / 1000);
+    for (auto _ : state) {
+        state.counters["outside"] = smooth.offFrom(smooth.fromOutside());
+        state.counters["within"] = smooth.offFrom(smooth.within());
+        state.counters["face"] = smooth.offFrom(smooth.alongAFace());
+    }
+}
+BENCHMARK(BM_OffFragments)
+    ->ArgNames({"opacity/1000"})
+    ->Arg(20)
+    ->Arg(100)
+    ->Arg(500)
+    ->Arg(1000)
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
 void splatsAndDiameters(benchmark::internal::Benchmark* b) {
     b->Args({1, 8})
         ->Args({100'000, 8})
         ->Args({1'000'000, 8})
         ->Args({100'000, 16})
         ->Args({1'000'000, 3})
+        ->Args({1'000'000, 1})
         ->Unit(benchmark::kMillisecond)
         ->MeasureProcessCPUTime()
         ->UseRealTime();
@@ -134,11 +158,17 @@ void splatsAndDiameters(benchmark::internal::Benchmark* b) {
 BENCHMARK(BM_DrawUnordered)->Apply(splatsAndDiameters);
 BENCHMARK(BM_DrawByValue)
     ->Args({100'000, 8})
+    ->Args({1'000'000, 8})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK(BM_DrawOrdered)
     ->Args({100'000, 8})
+    ->Args({1'000'000, 8})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(BM_DrawEye)
     ->Args({1'000'000, 8})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()

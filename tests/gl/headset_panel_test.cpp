@@ -65,6 +65,7 @@ TEST_F(PanelUnderARay, ThePicturesErrorOpensWhatItComesFrom) {
     around_.performance.report = {
         .counts = PointCounts{.layers = {7}, .selected = 7, .kept = 64, .total = 64},
         .whole = true};
+    around_.performance.errors.emplace();  // of nothing that is seen
     draw({});
     EXPECT_FALSE(opens());
     around_.performance.errors = DepthErrors{.rungs = {{.rung = {Model::Cells}, .depth = 0.03}}};

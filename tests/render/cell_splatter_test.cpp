@@ -41,6 +41,25 @@ TEST(CellSplatter, AFieldSelectedWholeIsAsDeepAsTheRaysWayThroughTheDomain) {
     }
 }
 
+// What a frame was to cost, and how long it took, is told from that: of few as of many, however
+// much is asked for at once.
+TEST(CellSplatter, TellsHowManyCellsItAdds) {
+    for (const Order order : {Order::None, Order::BackToFront}) {
+        CellWorld world(tests::noise(tests::cube(9)), {"0.4:0.6"});
+        world.scene.order = order;
+        const Channels channels = order == Order::None ? Channels::Weight : Channels::Over;
+        const std::uint64_t cells = cellCount(world.scene, channels, 0);
+        for (const std::uint64_t slice : {std::uint64_t{7}, tests::kAllCells}) {
+            CellSum sum(world.scene, tests::lookFrom({3, -0.4, 0.3}, {40, 30}), channels, 0, {}, 1,
+                        2);
+            std::uint64_t added = 0;
+            while (!sum.done()) added += sum.add(slice);
+            EXPECT_GE(added, cells);
+            EXPECT_LE(added, cells + cells / 8) << "listing them counts, too";
+        }
+    }
+}
+
 // Along a ray a linear field takes each value once: a range is as deep as it is thick, however
 // thin.
 TEST(CellSplatter, AThinRangeOfALinearFieldIsAClosedShellOfItsThickness) {

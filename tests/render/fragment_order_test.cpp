@@ -1,102 +1,22 @@
-// Splats are put in order as wholes, by the distance of their centres. What that costs beside the
-// order of their fragments, pixel by pixel.
+#include "tests/support/fragment_order.h"
+
 #include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <vector>
-
-#include "render/model/footprint.h"
-#include "render/splat/depth_order.h"
-#include "render/splat/tile_splatter.h"
-#include "tests/support/scenes.h"
 
 namespace render {
 namespace {
 
-// What a splat is on a pixel, and how far from the eye its density is greatest there: where the ray
-// comes nearest to its centre. REQUIRES: cells are cubes, larger than pixels.
-struct Fragment {
-    double distance, alpha;
-    glm::dvec3 rgb;
-};
-
-std::vector<std::vector<Fragment>> fragmentsOf(const Scene& scene, const View& view) {
-    const CellsView seen(scene.placed, view);
-    const PixelRays rays = pixelRays(view);
-    const Layer& layer = scene.layers.front();
-    std::vector<std::vector<Fragment>> all(std::size_t(view.size.x) * view.size.y);
-    const auto add = [&](std::uint64_t p) {
-        const std::uint32_t index = scene.step.gridIndex(p);
-        const auto s = splatAt<double>(seen, index, scene.footprint);
-        if (!s.visible) return;
-        const glm::dvec3 away = scene.placed.position(index) - rays.eye;
-        for (int y = 0; y < view.size.y; ++y)
-            for (int x = 0; x < view.size.x; ++x) {
-                const glm::dvec2 offset = glm::dvec2(x, y) + 0.5 - rays.centre;
-                if (std::abs(offset.x - s.centre.x) > s.hi.x ||
-                    std::abs(offset.y - s.centre.y) > s.hi.y)
-                    continue;
-                const auto weight = weightOn<double>(s, scene.footprint.kernel, offset - s.centre,
-                                                     offset / rays.focal, seen.rayLength);
-                if (!weight) continue;
-                const glm::dvec3 along = rays.along(offset);
-                all[static_cast<std::size_t>(y * view.size.x + x)].push_back(
-                    {glm::dot(away, glm::normalize(along)),
-                     -std::expm1(-opticalDepthPerWeight(layer.style.opacity) * *weight),
-                     colorOf(layer.style, timeseries::toDouble(scene.step.value(p)))});
-            }
-    };
-    for (const timeseries::Run& run : layer.runs)
-        for (std::uint64_t i = 0; i < run.count; ++i) add(run.first + i);
-    return all;
-}
-
-// The root of the mean square of the light's difference, of all channels.
-double differenceOf(const Scene& scene, const View& view) {
-    const std::vector<float> drawn =
-        sumTiles(scene, order(scene, pixelRays(view).eye), view, Channels::Over, 0, {});
-    auto fragments = fragmentsOf(scene, view);
-    double squares = 0;
-    for (std::size_t pixel = 0; pixel < fragments.size(); ++pixel) {
-        std::ranges::sort(fragments[pixel], std::greater(), &Fragment::distance);
-        glm::dvec4 light(0);
-        for (const Fragment& f : fragments[pixel])
-            light = glm::dvec4(f.rgb, 1.0) * f.alpha + light * (1 - f.alpha);
-        for (int c = 0; c < 4; ++c) {
-            const double off = double(drawn[4 * pixel + std::size_t(c)]) - light[c];
-            squares += off * off;
-        }
-    }
-    return std::sqrt(squares / double(drawn.size()));
-}
-
-// From outside, within, and along a face. Where the eye is among splats that hide half of what is
-// behind a cell, the nearest ones are so large that they stand in each other's place.
+// Where splats hide half of what is behind a cell and more, the nearest ones stand in each other's
+// place, above all those that an eye among them sees large.
 TEST(FragmentOrder, OfASmoothFieldIsSeenWhereSplatsAreInTheOrderOfTheirCentres) {
-    const auto grid = tests::cube(24);
-    const auto step = tests::stepOf(grid, [&](std::size_t i) {
-        const glm::dvec3 p = grid->position(i) * (1.0 / 23);
-        return static_cast<float>(p.x + 0.5 * std::sin(5 * p.y) + 0.3 * std::cos(7 * p.z));
-    });
-    const PlacedPoints placed(step.grid());
-    const double face = placed.boxHalf().z;
-    for (const double opacity : {0.02, 0.1, 0.5})
-        for (const glm::dvec3 eye : {glm::dvec3(1.3, -2.4, 0.9), glm::dvec3(0.1, 0.05, -0.2),
-                                     glm::dvec3(-1.5, 0.02, face)}) {
-            const Scene scene{.step = step,
-                              .placed = placed,
-                              .layers = {{step.select(timeseries::RangeSet::parse("0.4:0.8")),
-                                          {ByValue{{}, 0.4, 0.8}, opacity}}},
-                              .footprint = {},
-                              .order = Order::BackToFront,
-                              .clip = {}};
-            const bool isAmongThem = glm::length(eye) < face && opacity > 0.1;
-            EXPECT_LE(differenceOf(scene, tests::lookFrom(eye, {48, 36})),
-                      isAmongThem ? 5e-3 : 1e-3)
-                << opacity << " from " << eye.x << ", " << eye.y << ", " << eye.z;
-        }
+    for (const auto& [opacity, outside, within, face] : {std::array{0.02, 1e-3, 1e-3, 1e-3},
+                                                         {0.1, 1e-3, 1e-3, 1e-3},
+                                                         {0.5, 1e-3, 5e-3, 1e-3},
+                                                         {1.0, 3e-3, 8e-2, 5e-3}}) {
+        const tests::SmoothScene smooth(opacity);
+        EXPECT_LE(smooth.offFrom(smooth.fromOutside()), outside) << opacity;
+        EXPECT_LE(smooth.offFrom(smooth.within()), within) << opacity;
+        EXPECT_LE(smooth.offFrom(smooth.alongAFace()), face) << opacity;
+    }
 }
 
 }  // namespace

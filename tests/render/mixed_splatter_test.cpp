@@ -29,7 +29,10 @@ constexpr glm::ivec2 kSize(60, 45);
 std::vector<float> mixed(const Scene& scene, const View& view, int raysAcross = 1,
                          unsigned threads = 2, std::uint64_t slice = kAllAtOnce) {
     MixedSum sum(scene, view, {}, raysAcross, threads);
-    while (!sum.done()) sum.add(slice);
+    std::uint64_t added = 0;
+    while (!sum.done()) added += sum.add(slice);
+    const std::uint64_t all = cellCount(scene, Channels::Over, 0) + splatCount(onlyPoints(scene));
+    EXPECT_LE(added, 2 * all + 8) << "listing them counts, too";
     std::vector<float> whole(std::size_t(4 * view.size.x * view.size.y));
     const PixelBox& box = sum.box();
     for (int y = 0; y < box.size.y; ++y)

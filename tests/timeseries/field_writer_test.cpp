@@ -67,6 +67,28 @@ TEST(StepOfField, IsFoundAPartAfterTheOther) {
     expectSameParts(double());
 }
 
+// Most points have one value, or one of two, or of two that are near each other: parts end among
+// them, behind others and before others. Of two zeros, too, which are one.
+TEST(StepOfField, IsFoundInPartsAlsoOfOneValue) {
+    struct Shares {
+        double zeros, sevens;
+        float nearly;  // for 1 in 100,000 of these
+    };
+    for (const auto& [zeros, sevens, nearly] :
+         {Shares{0.9, 1.0, 7}, {0.02, 0.6, 7}, {0.5, 0.99, 7}, {0.01, 1.0, 7.001f}}) {
+        Field field = fieldOf<float>({256, 256, 266}, HowOften::Alike, sevens < 0.9, 3);
+        std::mt19937 random(7);
+        for (float& value : std::get<std::vector<float>>(field.values)) {
+            const auto any = random();
+            const double place = static_cast<double>(any) * 0x1p-32;
+            value = place < zeros    ? (any % 2 > 0 ? 0.0f : -0.0f)
+                    : place < sevens ? (any % 100'000 > 0 ? 7 : nearly)
+                                     : static_cast<float>(any % 1000) - 500;
+        }
+        expectSameBytes(field, 2, 1);
+    }
+}
+
 // Twice 2^23 at once, which two groups of blocks are made of, and then the rest.
 TEST(StepOfField, IsFoundSeveralGroupsAtOnce) {
     expectSameBytes(fieldOf<float>({256, 256, 340}, HowOften::Even, true, 5), 2, 1 << 23);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <semaphore>
 
 #include "tests/support/files.h"
 #include "tests/support/random_field.h"
@@ -97,6 +98,23 @@ TEST(StepReader, SeveralAreASeriesByTheirTimesAndAreNotSortedAgain) {
     EXPECT_EQ(kept.make(2)->size(), SortedStep::build(fieldOf({40, 30, 3}, 2)).count(some));
 }
 
+// So many that threads share them.
+TEST(StepReader, OfHundredsTheFirstThatIsDamagedIsTold) {
+    std::vector<fs::path> paths;
+    for (int i = 0; i < 300; ++i)
+        paths.push_back(
+            put(tests::testFolder() / fmt::format("u_{:03}.isostep", i),
+                tests::written(SortedStep::build(fieldOf({4, 3, 3}, static_cast<unsigned>(i))),
+                               textOf(aboutAt(0.5 * i)))));
+    const auto series = openReader(paths);
+    const auto& points = series->variables()[0].time->points;
+    ASSERT_EQ(points.size(), 300u);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        EXPECT_EQ(points[i].value, 0.5 * static_cast<double>(i));
+    for (const std::size_t damaged : {200, 90}) fs::resize_file(paths[damaged], 100);
+    EXPECT_THAT(refusalOf(paths), HasSubstr("u_090.isostep"));
+}
+
 // Who draws a step that came does not wait for the disk.
 TEST(StepReader, WhatIsLookedAtIsReadBeforeAStepComes) {
     std::vector<fs::path> paths;
@@ -124,6 +142,23 @@ TEST(StepReader, WhatIsLookedAtIsReadBeforeAStepComes) {
     EXPECT_LT(before, read->size() * each);
     (void)read->columns(runs);
     EXPECT_EQ(read->pointBytes(), before);
+}
+
+// Of those that have their points in memory two wait, and no more.
+TEST(StepReader, FewStepsWaitWithAllTheirPoints) {
+    std::vector<fs::path> paths;
+    for (int i = 0; i < 4; ++i)
+        paths.push_back(
+            put(tests::testFolder() / fmt::format("u_{}.isostep", i),
+                tests::written(SortedStep::build(fieldOf({300, 300, 3}, static_cast<unsigned>(i))),
+                               textOf(aboutAt(0.5 * i)))));
+    std::counting_semaphore<> came{0};
+    StepLoader loader(
+        openReader(paths), 0, RangeSet::everything(), [&] { came.release(); }, Ready::Whole);
+    loader.want({0, 1, 2, 3}, StepLoader::Haste::Waited, RangeSet::everything());
+    for (int i = 0; i < 2; ++i) came.acquire();
+    EXPECT_FALSE(came.try_acquire_for(std::chrono::milliseconds(200)));
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(std::get<Loaded>(*loader.waitAndPoll()).step, i);
 }
 
 TEST(StepReader, WhatIsNoStepOfItsOwnIsRefused) {

@@ -67,7 +67,7 @@ class ValueBins {
     static constexpr std::uint32_t kPrefixes = 1 << 16;
     static constexpr std::size_t kFiner = 8;  // bins for each of the buckets that they become
     struct Prefix {
-        Key least = 0;            // of the second bin's neighbours: where they begin to count
+        Key least = 0;  // from which on the bins are even: the first has also what is less
         std::uint32_t first = 0;  // bin
         std::uint16_t last = 0;   // of its bins, counted from the first
         std::uint8_t shift = 0;
@@ -75,15 +75,16 @@ class ValueBins {
 
     // In at most so many bins.
     static void divide(Prefix& p, Key least, Key greatest, std::size_t bins) {
-        const Key span = greatest - least;
+        const Key rest = (Key{1} << kRest) - 1;
         const auto most = static_cast<Key>(std::clamp<std::size_t>(bins, 2, 1 << 12));
-        p.least = least;
-        while ((span >> p.shift) >= most) ++p.shift;
-        // One more beside those of the sample: what is greater does not crowd the last one.
-        p.last = static_cast<std::uint16_t>((span >> p.shift) + 1);
+        while (((greatest - least) >> p.shift) >= most) ++p.shift;
+        // One more on either side of those of the sample: what is less or greater does not crowd
+        // them, and of a value that is most of all alone a bin has nothing else.
+        const Key width = Key{1} << p.shift;
+        p.least = (least & rest) >= width ? least - width : least;
+        p.last = static_cast<std::uint16_t>(((greatest - p.least) >> p.shift) + 1);
         // Bins beyond the prefix would begin where the next one's do.
-        const Key end = least | ((Key{1} << kRest) - 1);
-        while (p.last > 0 && ((end - least) >> p.shift) < p.last) --p.last;
+        while (p.last > 0 && (((least | rest) - p.least) >> p.shift) < p.last) --p.last;
     }
 
     std::vector<Prefix> prefixes_;

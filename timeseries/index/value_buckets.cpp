@@ -1,6 +1,7 @@
 #include "timeseries/index/value_buckets.h"
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <utility>
 
@@ -71,14 +72,33 @@ struct ValueBuckets<T>::Counts {
     std::vector<std::uint32_t> bucketOfPrefix;
     Partition<T> about;
 
-    // Into `out`, which has room, the points of buckets, which are those from `among`.
+    std::uint64_t inBucket(std::size_t bucket) const {
+        return about.begin[bucket + 1] - about.begin[bucket];
+    }
+    // Into `out`, which has room, from place `at` on the points of buckets, those from `among`.
     template <typename Among>
-    void scatter(std::size_t first, std::size_t end, const Among& among, Partition<T>& out) const {
+    void scatter(std::size_t first, std::size_t end, const Among& among, std::uint64_t at,
+                 Partition<T>& out) const {
         const auto slotOf = [&, ofPrefix = bucketOfPrefix.data()](OrderedKey<T> key) {
             const std::uint32_t whole = ofPrefix[bins.prefixOf(key)];
             return std::size_t{whole != bins.kDivided ? whole : bucketOf[bins(key)]} - first;
         };
-        scatterAll<T, true>(points, startsOf(parts, first, end), slotOf, among, passed, out);
+        scatterAll<T, true>(points, startsOf(parts, first, end, at), slotOf, among, passed, out);
+    }
+    // visit(place, i, value) of a bucket's points, each thread of those in its part of the field
+    // where this has any of the places [first, end).
+    template <typename Visit>
+    void forEachOf(std::size_t bucket, std::uint64_t first, std::uint64_t end,
+                   const Visit& visit) const {
+        const auto threads = static_cast<unsigned>(parts.size());
+        const auto starts = startsOf(parts, bucket, bucket + 1);
+        const PointsWithin<T> among{points, valuesOf(about, bucket, bucket + 1)};
+        sharing(threads, [&](unsigned k) {
+            std::uint64_t place = starts[k].front();
+            if (place >= end || place + parts[k].inBin[bucket] <= first) return;
+            among(points.begin(k, threads), points.begin(k + 1, threads),
+                  [&](std::size_t i, T value) { visit(place++, i, value); });
+        });
     }
 };
 
@@ -116,26 +136,55 @@ const Partition<T>& ValueBuckets<T>::about() const {
 }
 
 template <typename T>
-Partition<T> ValueBuckets<T>::points(std::size_t first, std::size_t end) const {
+Partition<T> ValueBuckets<T>::points(std::size_t first, std::size_t end, std::uint64_t before,
+                                     std::uint64_t after) const {
     const Partition<T>& all = counts_->about;
     Partition<T> out;
     out.valid = all.valid;
     out.leastValid = all.leastValid;
     out.greatestValid = all.greatestValid;
     out.finite = all.finite;
-    for (std::size_t b = first; b < end; ++b) {
-        out.least.push_back(all.least[b]);
-        out.begin.push_back(all.begin[b + 1] - all.begin[first]);
-    }
+    const auto add = [&](std::size_t bucket, std::uint64_t points) {
+        out.least.push_back(all.least[bucket]);
+        out.begin.push_back(out.begin.back() + points);
+    };
+    if (before > 0) add(first - 1, before);
+    for (std::size_t b = first; b < end; ++b) add(b, counts_->inBucket(b));
+    if (after > 0) add(end, after);
     out.gridIndex = roomFor<std::uint32_t>(out.points());
     out.values = roomFor<T>(out.points());
     const bool areAll = first == 0 && end == all.least.size();
     if (areAll)
-        counts_->scatter(first, end, counts_->points, out);
-    else if (out.points() > 0)
+        counts_->scatter(first, end, counts_->points, 0, out);
+    else if (all.begin[first] < all.begin[end])
         counts_->scatter(first, end, PointsWithin<T>{counts_->points, valuesOf(all, first, end)},
-                         out);
+                         before, out);
     return out;
+}
+
+template <typename T>
+std::optional<T> ValueBuckets<T>::oneValue(std::size_t bucket) const {
+    T first{};
+    counts_->forEachOf(bucket, 0, 1, [&](std::uint64_t place, std::size_t, T value) {
+        if (place == 0) first = value;
+    });
+    std::atomic<bool> differ = false;
+    counts_->forEachOf(bucket, 0, counts_->inBucket(bucket),
+                       [&](std::uint64_t, std::size_t, T value) {
+                           if (value != first) differ.store(true, std::memory_order_relaxed);
+                       });
+    if (differ) return std::nullopt;
+    return valueOfKey<T>(orderedKey(first));
+}
+
+template <typename T>
+void ValueBuckets<T>::copyIndices(std::size_t bucket, std::uint64_t first,
+                                  std::span<std::uint32_t> to) const {
+    counts_->forEachOf(bucket, first, first + to.size(),
+                       [&](std::uint64_t place, std::size_t i, T) {
+                           if (place - first < to.size())  // else before them, or behind
+                               to[place - first] = static_cast<std::uint32_t>(i);
+                       });
 }
 
 #define ISOCHRON_BUCKETS(T, name) template class ValueBuckets<T>;

@@ -104,13 +104,14 @@ class Scatter {
     std::unique_ptr<Room[]> lines_;
 };
 
-// Where each thread's points of each slot from `first` on begin, the slots one after the other.
+// Where each thread's points of each slot from `first` on begin, the slots one after the other from
+// `at` on.
 template <typename T>
 std::vector<std::vector<std::uint64_t>> startsOf(const std::vector<Counted<T>>& parts,
-                                                 std::size_t first, std::size_t end) {
+                                                 std::size_t first, std::size_t end,
+                                                 std::uint64_t at = 0) {
     std::vector<std::vector<std::uint64_t>> starts(parts.size(),
                                                    std::vector<std::uint64_t>(end - first));
-    std::uint64_t at = 0;
     for (std::size_t slot = first; slot < end; ++slot)
         for (std::size_t k = 0; k < parts.size(); ++k) {
             starts[k][slot - first] = at;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "timeseries/in_turn.h"
 #include "timeseries/readers/amrex/amrex_header.h"
 #include "timeseries/readers/amrex/amrex_reader.h"
 #include "timeseries/readers/arrays/array_reader.h"
@@ -43,8 +44,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-std::string beginning(const std::filesystem::path& path) {
-    expectFile(path);
+// REQUIRES: an ordinary file.
+std::string beginOf(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::string start(kBeginningBytes, '\0');
     file.read(start.data(), static_cast<std::streamsize>(kBeginningBytes));
@@ -54,11 +55,17 @@ std::string beginning(const std::filesystem::path& path) {
     return start;
 }
 
+std::string beginning(const std::filesystem::path& path) {
+    expectFile(path);
+    return beginOf(path);
+}
+
 struct Format {
     bool (*begins)(std::string_view start);
     std::unique_ptr<Reader> (*open)(std::span<const std::filesystem::path> paths);
     bool joins = false;  // open() makes several files one series; else it is given one at a time
     bool opensLater = false;  // of a series all but the first when their steps are read
+    OpenedOn opensOn = OpenedOn::OneThread;
 };
 
 const Format& recognise(const std::filesystem::path& path);
@@ -104,7 +111,8 @@ const std::array kFormats = {
            openWith<readNiftiHeader>},
     Format{isMrc, openWith<readMrcHeader>},
     Format{[](std::string_view start) { return start.starts_with("SIMPLE  ="sv); }, openFits},
-    Format{[](std::string_view start) { return start.starts_with("isostep\n"sv); }, openStep},
+    Format{[](std::string_view start) { return start.starts_with("isostep\n"sv); }, openStep, false,
+           false, OpenedOn::AllThreads},
     Format{[](std::string_view start) { return start.starts_with(" BDV\0\0\0\0"sv); }, openVdb,
            true},
     Format{isXdmf, openXdmf},
@@ -130,12 +138,18 @@ const Format kFoam{nullptr, openFoam}, kAmrex{nullptr, openAmrex, true};
 
 // Null of a file that begins as none. Throws FileError where it cannot be read.
 const Format* formatOf(const std::filesystem::path& path) {
+    std::string start;
+    const bool hasBeginning = flawOfFile(path).empty();
+    if (hasBeginning) {
+        start = beginOf(path);
+        for (const Format& format : kFormats)
+            if (format.begins(start)) return &format;
+    }
+    // Folders, and files in them or beside them.
     if (isZarr(path)) return &kZarr;
     if (isFoamCase(path)) return &kFoam;
     if (isAmrex(path)) return &kAmrex;
-    const std::string start = beginning(path);
-    for (const Format& format : kFormats)
-        if (format.begins(start)) return &format;
+    if (!hasBeginning) expectFile(path);
     if (!otherFormat(start).empty()) return nullptr;
     std::error_code ignored;
     return isPlot3d(start, std::filesystem::file_size(path, ignored)) ? &kPlot3d : nullptr;
@@ -193,8 +207,10 @@ std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths)
     if (paths.empty()) throw FileError("expected a file to open, but none is named");
     // All of them first: a wrong file among many is told before any is read.
     const Format& format = recognise(paths.front());
-    for (const std::filesystem::path& path : paths) {
-        const Format* const its = formatOf(path);
+    constexpr std::size_t kWorthAThread = 64;
+    const auto formatAt = [&](std::size_t i) { return formatOf(paths[i]); };
+    inTurn(0, paths.size(), kWorthAThread, formatAt, [&](std::size_t i, const Format* its) {
+        const std::filesystem::path& path = paths[i];
         if (its && its != &format)
             throw FileError(
                 fmt::format("{}: expected the format of {}, so that they make one series",
@@ -203,14 +219,16 @@ std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths)
         // damage is found then.
         const bool isToldLater = format.opensLater && path.extension() == paths.front().extension();
         if (!its && !isToldLater) failUnknown(path);
-    }
+    });
     const auto now = std::chrono::system_clock::now();
-    auto reader = inOrderOfTime(
-        format.joins || paths.size() == 1
-            ? format.open(paths)
-            : openSequence(paths, [open = format.open](const std::filesystem::path& path) {
-                  return open(std::span(&path, 1));
-              }));
+    auto reader = inOrderOfTime(format.joins || paths.size() == 1
+                                    ? format.open(paths)
+                                    : openSequence(
+                                          paths,
+                                          [open = format.open](const std::filesystem::path& path) {
+                                              return open(std::span(&path, 1));
+                                          },
+                                          {}, {}, format.opensOn));
     reader->openedAt = now;
     return reader;
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "timeseries/in_turn.h"
 #include "timeseries/readers/kept_readers.h"
 #include "timeseries/readers/series_files.h"
 #include "timeseries/together.h"
@@ -18,6 +19,9 @@ namespace timeseries {
 namespace {
 
 using Path = std::filesystem::path;
+
+// Files to look at.
+constexpr std::size_t kWorthAThread = 32;
 
 // The place in `all` of the variable that one of another file is: of its name, or nameless as it.
 std::optional<std::size_t> placeOf(const Variable& variable, std::span<const Variable> all) {
@@ -37,7 +41,7 @@ struct TimesOf {
 class SequenceReader final : public Reader {
  public:
     SequenceReader(std::span<const Path> paths, OpenOne openOne, const GlanceAt& glanceAt,
-                   GridsOf gridsOf)
+                   GridsOf gridsOf, OpenedOn on)
         : paths_(paths.begin(), paths.end()),
           openOne_(std::move(openOne)),
           gridsOf_(std::move(gridsOf)),
@@ -50,11 +54,19 @@ class SequenceReader final : public Reader {
         counts_.resize(variables_.size());
         for (std::size_t v = 0; v < variables_.size(); ++v) take(v, variables_[v]);
         auto glances = glancesAt(glanceAt);
-        for (std::size_t f = 1; f < paths_.size(); ++f)
+        // What a file says of itself; nothing of one that was glanced at.
+        const auto said = [&](std::size_t f) {
+            if (glances[f]) return std::vector<Variable>();
+            const auto reader = openOne_(paths_[f]);
+            return std::vector(reader->variables().begin(), reader->variables().end());
+        };
+        const std::size_t worthAThread = on == OpenedOn::AllThreads ? kWorthAThread : paths_.size();
+        inTurn(1, paths_.size(), worthAThread, said, [&](std::size_t f, const auto& variables) {
             if (glances[f])
                 add(f, std::move(*glances[f]));
             else
-                add(f, *openOne_(paths_[f]));
+                add(f, variables);
+        });
         for (Variable& variable : variables_)
             if (variable.nameless) variable.name = commonName(paths_);
         for (std::size_t v = 0; v < variables_.size(); ++v) joinTimes(v);
@@ -97,14 +109,14 @@ class SequenceReader final : public Reader {
     };
 
     void take(std::size_t v, const Variable& its);
-    void add(std::size_t file, const Reader& reader);
+    void add(std::size_t file, std::span<const Variable> its);
     std::vector<std::optional<Glance>> glancesAt(const GlanceAt& glanceAt) const;
     void compare(std::size_t file, Glance& glance) const;
     void add(std::size_t file, Glance glance);
     void tellLeftOut(const std::string& variable);
     void tellUnfit();
     const Variable& expectSame(const Variable& expected, std::size_t file,
-                               const Reader& reader) const;
+                               std::span<const Variable> its) const;
     void joinTimes(std::size_t v);
     std::string ownTimesFail(std::size_t v) const;
     TimeAxis ownTimes(std::size_t v) const;
@@ -138,10 +150,10 @@ class SequenceReader final : public Reader {
 };
 
 const Variable& SequenceReader::expectSame(const Variable& expected, std::size_t file,
-                                           const Reader& reader) const {
-    const auto at = placeOf(expected, reader.variables());
+                                           std::span<const Variable> its) const {
+    const auto at = placeOf(expected, its);
     if (!at) throw FileError(withoutVariable(file, expected.name));
-    const Variable* const found = &reader.variables()[*at];
+    const Variable* const found = &its[*at];
     const std::string place = fmt::format("variable '{}': expected the same ", expected.name);
     if (found->type != expected.type)
         differ(0, file,
@@ -168,10 +180,10 @@ void SequenceReader::take(std::size_t v, const Variable& its) {
     counts_[v].most = std::max(counts_[v].most, its.grid->count());
 }
 
-void SequenceReader::add(std::size_t file, const Reader& reader) {
+void SequenceReader::add(std::size_t file, std::span<const Variable> its) {
     for (std::size_t v = 0; v < variables_.size(); ++v)
-        take(v, expectSame(variables_[v], file, reader));
-    for (const Variable& other : reader.variables())
+        take(v, expectSame(variables_[v], file, its));
+    for (const Variable& other : its)
         if (!placeOf(other, variables_)) tellLeftOut(other.name);
 }
 
@@ -200,7 +212,6 @@ StepGrids SequenceReader::stepGrids(std::size_t v) {
 // [file], of the first none; each compared. On several threads: a file system may answer several
 // questions in the time of one.
 std::vector<std::optional<Glance>> SequenceReader::glancesAt(const GlanceAt& glanceAt) const {
-    constexpr std::size_t kWorthAThread = 32;
     std::vector<std::optional<Glance>> glances(paths_.size());
     if (!glanceAt) return glances;
     std::atomic<std::size_t> next = 1;
@@ -359,7 +370,7 @@ Reader& SequenceReader::open(std::size_t file) {
     auto reader = openOne_(paths_[file]);
     // It may have been written anew since the series was opened.
     for (std::size_t v = 0; v < variables_.size(); ++v)
-        expectThen(v, file, *expectSame(variables_[v], file, *reader).time);
+        expectThen(v, file, *expectSame(variables_[v], file, reader->variables()).time);
     return open_.keep(file, at, std::move(reader));
 }
 
@@ -388,9 +399,9 @@ Field SequenceReader::read(std::size_t variable, std::size_t step) {
 }  // namespace
 
 std::unique_ptr<Reader> openSequence(std::span<const Path> paths, OpenOne openOne,
-                                     const GlanceAt& glanceAt, GridsOf gridsOf) {
-    return std::make_unique<SequenceReader>(paths, std::move(openOne), glanceAt,
-                                            std::move(gridsOf));
+                                     const GlanceAt& glanceAt, GridsOf gridsOf, OpenedOn on) {
+    return std::make_unique<SequenceReader>(paths, std::move(openOne), glanceAt, std::move(gridsOf),
+                                            on);
 }
 
 }  // namespace timeseries

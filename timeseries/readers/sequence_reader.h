@@ -28,6 +28,9 @@ using GlanceAt = std::function<std::optional<Glance>(const std::filesystem::path
 using GridsOf =
     std::function<StepGrids(std::span<const std::filesystem::path> paths, const Grid& first)>;
 
+// Whether files may be opened on several threads at once.
+enum class OpenedOn { OneThread, AllThreads };
+
 // The steps of all files, in the order of the paths. Each file is opened once here, for what it
 // says of itself, and again when a step of it is read; few stay open. With `glanceAt` only the
 // first is opened here, and each other when a step of it is read: one that does not fit then, or
@@ -39,6 +42,7 @@ using GridsOf =
 // note. REQUIRES: paths is not empty. Throws FileError, naming two files, where variables, types,
 // units or grids differ, and where times of files of several steps overlap.
 std::unique_ptr<Reader> openSequence(std::span<const std::filesystem::path> paths, OpenOne openOne,
-                                     const GlanceAt& glanceAt = {}, GridsOf gridsOf = {});
+                                     const GlanceAt& glanceAt = {}, GridsOf gridsOf = {},
+                                     OpenedOn on = OpenedOn::OneThread);
 
 }  // namespace timeseries

@@ -119,9 +119,14 @@ std::size_t Series::urgency(std::size_t step) const {
 }
 
 void Series::evict(Steps& left) {
-    while (bytes_ > budget_ && inMemory_.size() > 1) {
-        // kUnwanted is greater than any place among the wishes.
+    const auto stored = [this](std::size_t step) { return isStored(step); };
+    while (inMemory_.size() > 1) {
+        const bool isOver = bytes_ > budget_;
+        if (!isOver && std::ranges::count_if(inMemory_, stored) <= kMostOpen) return;
+        // Those on disk first, where it is files that are too many; kUnwanted is greater than any
+        // place among the wishes.
         const auto leavesLater = [&](std::size_t a, std::size_t b) {
+            if (!isOver && stored(a) != stored(b)) return stored(b);
             const std::size_t ua = urgency(a), ub = urgency(b);
             return ua != ub ? ua < ub : slots_[a].lastUse > slots_[b].lastUse;
         };

@@ -34,6 +34,9 @@ struct StepSummary {
 class Series {
  public:
     static constexpr std::size_t kQuantiles = kStepQuantiles;
+    // Steps on disk that are loaded, each of which has its file open: of files that a process may
+    // have open a part.
+    static constexpr int kMostOpen = 256;
 
     // Throws std::invalid_argument when there is no step.
     Series(std::size_t steps, std::uint64_t budgetBytes, Quantiles quantiles = Quantiles::Kept);
@@ -63,9 +66,10 @@ class Series {
     // another, for ever. What was Loading and is not returned is Empty again.
     std::vector<std::size_t> want(std::vector<std::size_t> mostUrgentFirst);
 
-    // Takes the step in, wished or not, then evicts down to the budget: first what is not wished,
-    // by least recent use, then the least urgent wish; which may be `step` itself. The summaries
-    // stay. Returns what left: freeing a large step takes long enough to be done elsewhere.
+    // Takes the step in, wished or not, then evicts down to the budget, and to kMostOpen: first
+    // what is not wished, by least recent use, then the least urgent wish; which may be `step`
+    // itself. The summaries stay. Returns what left: freeing a large step takes long enough to be
+    // done elsewhere.
     using Steps = std::vector<std::shared_ptr<const SortedStep>>;
     Steps loaded(std::size_t step, std::shared_ptr<const SortedStep> sorted);
     // Steps grow while they are looked at: takes note of what they take now, and evicts.

@@ -18,6 +18,14 @@ namespace {
 // A step that waits to be polled takes memory outside any budget, so there are few: one that was
 // just finished and one more, so that the disk does not wait for the next frame.
 constexpr std::size_t kMostResults = 2;
+// Of a step on disk that nobody has looked into little is in memory.
+constexpr std::uint64_t kLittle = std::uint64_t{1} << 20;
+
+bool takesLittle(const LoadResult& result) {
+    const auto* loaded = std::get_if<Loaded>(&result);
+    if (!loaded || !loaded->sorted->file()) return false;
+    return loaded->sorted->pointBytes() + loaded->sorted->file()->blocks().size_bytes() < kLittle;
+}
 
 std::size_t stepOf(const LoadResult& result) {
     return std::visit([](const auto& r) { return r.step; }, result);
@@ -115,7 +123,11 @@ void StepLoader::run(const std::stop_token& stop) {
     }
 }
 
-bool StepLoader::mayBegin() const { return !wishes_.empty() && results_.size() < kMostResults; }
+bool StepLoader::mayBegin() const {
+    const auto little = static_cast<std::size_t>(std::ranges::count_if(results_, takesLittle));
+    return !wishes_.empty() && results_.size() < kMostAhead &&
+           results_.size() - little < kMostResults;
+}
 
 // What is there to be written, as long as nobody waits for anything else.
 void StepLoader::write(const std::stop_token& stop) {

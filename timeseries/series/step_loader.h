@@ -58,6 +58,10 @@ class StepLoader {
     StepLoader(const StepLoader&) = delete;
     StepLoader& operator=(const StepLoader&) = delete;
 
+    // Results that wait to be polled, at most: of steps on disk of which little is in memory. Of
+    // others there are two.
+    static constexpr std::size_t kMostAhead = 32;
+
     std::size_t stepCount() const { return stepCount_; }
 
     // Replaces the wishes: what is not wished any more and not begun is not read. What is being

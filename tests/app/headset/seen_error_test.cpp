@@ -1,6 +1,7 @@
 // The error that is told at the hand.
 #include "app/headset/seen_error.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -38,7 +39,7 @@ Seen ramps(const char* range, Model model) {
 
 std::string toldOf(SeenError& error, const Seen& seen, const Rung& drawn, Clock::time_point from) {
     const auto end = Clock::now() + 60s;
-    while (error.text(drawn).empty() && Clock::now() < end) {
+    while (!error.errors() && Clock::now() < end) {
         error.update(seen.screen, seen.view, from + SeenError::kStands);
         std::this_thread::yield();
     }
@@ -73,8 +74,9 @@ TEST(SeenError, WaitsUntilTheSelectionStandsAndItsCellsAreThere) {
         std::this_thread::sleep_for(1ms);
     }
     EXPECT_FALSE(error.errors()) << "no cells are made for it";
+    EXPECT_EQ(error.text({Model::Cells}), "error not known yet");
     seen.screen.sorted->cells();
-    EXPECT_NE(toldOf(error, seen, {Model::Cells}, now), "");
+    EXPECT_THAT(toldOf(error, seen, {Model::Cells}, now), testing::StartsWith("error about"));
 }
 
 // What it comes from is asked for anew, and what was known is told meanwhile.
@@ -103,13 +105,27 @@ TEST(SeenError, HasItsPartsWhereTheyAreLookedAt) {
     EXPECT_TRUE(parts());
 }
 
+TEST(SeenError, SaysWhereNobodyKnowsIt) {
+    Seen seen = ramps("3:5", Model::Points);
+    timeseries::Field field = seen.screen.sorted->field();
+    field.categories = true;
+    seen.screen.sorted = std::make_shared<const timeseries::SortedStep>(
+        timeseries::SortedStep::build(std::move(field)));
+    SeenError error;
+    EXPECT_EQ(error.text({Model::Points}), "") << "nothing is seen yet";
+    error.update(seen.screen, seen.view, Clock::now());
+    EXPECT_EQ(error.text({Model::Points}), "error not known");
+    EXPECT_EQ(error.errors()->whyNone, "nothing lies between categories");
+}
+
 // Neither where the head is nor how it is lit changes it; what is selected does.
 TEST(SeenError, IsForgottenWithItsSelection) {
     Seen seen = ramps("3:5", Model::Points);
     SeenError error;
     const Clock::time_point now = Clock::now();
     error.update(seen.screen, seen.view, now);
-    ASSERT_NE(toldOf(error, seen, {Model::Points}, now), "");
+    toldOf(error, seen, {Model::Points}, now);
+    ASSERT_TRUE(error.errors());
     seen.screen.explorer.view.azimuthDegrees = 77;
     seen.screen.explorer.lamp = LampChoice{1, 2};
     error.update(seen.screen, seen.view, now + 5s);

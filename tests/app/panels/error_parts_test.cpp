@@ -74,11 +74,19 @@ TEST_F(ErrorPartsDesk, AClickBesideClosesThem) {
 
 TEST_F(ErrorPartsDesk, WhereNoErrorIsToldNothingIsPressed) {
     const Rect at = *place();
-    desk_.performance.errors.reset();
+    desk_.performance.errors.emplace();  // of a picture without anything
     desk_.frames(2);
     EXPECT_FALSE(place());
     desk_.click(at.centre());
     EXPECT_FALSE(isOpen());
+}
+
+TEST_F(ErrorPartsDesk, WhatIsNotKnownYetIsPressedToo) {
+    desk_.performance.errors.reset();
+    desk_.frames(2);
+    ASSERT_TRUE(place());
+    desk_.click(place()->centre());
+    EXPECT_TRUE(isOpen());
 }
 
 // The picture moves on while it is open: what is not known any more is said not to be.

@@ -27,7 +27,7 @@ TEST(Figures, AreOfThePictureAlone) {
     r.counts = PointCounts{.layers = {4000}, .selected = 4000, .kept = 9000, .total = 10000};
     r.whole = false;
     const auto lines = figuresOf(p, desk.exploration.series());
-    EXPECT_THAT(lines, ElementsAre("1,000 of 4,000 points drawn",
+    EXPECT_THAT(lines, ElementsAre("1,000 of 4,000 points drawn", "error not known yet",
                                    "4,000 selected  ·  9,000 kept  ·  10,000 in all",
                                    EndsWith("a subset while it moves")));
     r.whole = true;
@@ -35,7 +35,7 @@ TEST(Figures, AreOfThePictureAlone) {
     p.frame = 50ms;
     r.drawn = 4000;
     EXPECT_THAT(figuresOf(p, desk.exploration.series()),
-                ElementsAre("4,000 points drawn", HasSubstr("4,000 selected"),
+                ElementsAre("4,000 points drawn", testing::_, HasSubstr("4,000 selected"),
                             EndsWith("all of it drawn")));
     r.whole = false;
     r.lacksCells = true;
@@ -51,7 +51,7 @@ TEST(Figures, CountCellsWhereTheyAreDrawn) {
     r.cells = 3321;
     r.counts = PointCounts{.layers = {71}, .selected = 71, .kept = 100, .total = 100};
     EXPECT_THAT(figuresOf(p, desk.exploration.series()),
-                ElementsAre("3,321 cells drawn", HasSubstr("71 selected"), testing::_));
+                ElementsAre("3,321 cells drawn", testing::_, HasSubstr("71 selected"), testing::_));
     r.counts->inClipBox = true;
     EXPECT_EQ(figuresOf(p, desk.exploration.series()).front(),
               "3,321 cells drawn, before clipping");
@@ -75,6 +75,17 @@ TEST(Figures, StateTheErrorOnceItIsKnown) {
         EXPECT_THAT(figuresOf(p, desk.exploration.series()),
                     ElementsAre("7 points drawn", text, HasSubstr("7 selected"), testing::_));
     }
+}
+
+TEST(Figures, SayWhereNobodyKnowsTheError) {
+    tests::ScriptedExploration desk;
+    Performance p = sevenPoints();
+    EXPECT_EQ(figuresOf(p, desk.exploration.series())[1], "error not known yet");
+    EXPECT_EQ(errorPartLines(p)[0].what, "This picture's error is not known yet.");
+    p.errors.emplace().whyNone = "nothing lies between categories";
+    EXPECT_EQ(figuresOf(p, desk.exploration.series())[1], "error not known");
+    EXPECT_EQ(errorPartLines(p)[0].what,
+              "This picture's error is not known: nothing lies between categories.");
 }
 
 // As of points that have a field's greatest value, between which there is nothing.
