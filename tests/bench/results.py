@@ -18,7 +18,7 @@ import sys
 
 from pages import ROOT, commit, new_page, processor, table
 
-KEPT = ROOT / "build/results"
+KEPT = ROOT / "tests/bench/figures"
 BENCH = ROOT / "build/release/tests/bench/isochron_bench"
 # What each part runs; all but window and headset are filters of isochron_bench.
 FILTERS = {
@@ -85,7 +85,7 @@ def openings(text):
 
 
 def measure(part):
-    about = {"commit": commit("tests/bench/RESULTS.md", "tests/bench/NOTES.md"), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0], "machine": processor()}
+    about = {"commit": commit("tests/bench/RESULTS.md", "tests/bench/NOTES.md", "tests/bench/figures"), "date": datetime.date.today().isoformat(), "load": os.getloadavg()[0], "machine": processor()}
     print(f"{part} ...", file=sys.stderr)
     if part == "window":
         figures = said("build/release/tests/ui/ui_bench")
