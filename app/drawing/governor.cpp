@@ -5,7 +5,6 @@
 namespace app {
 
 void Governor::setTarget(std::chrono::nanoseconds target) {
-    target_ = target;
     points_.setTarget(target);
     cells_.setTarget(target);
 }
@@ -19,23 +18,24 @@ void Governor::beginFrom(const DrawingCosts& learnt) {
 void Governor::took(const Drawn& drawn, std::chrono::nanoseconds time,
                     std::chrono::nanoseconds since) {
     (drawn.areCells ? cells_ : points_).took(drawn.splats, time);
-    if (drawn.areCells && mayTryCells())
-        patience_ = time > target_ ? std::min(2 * patience_, kMostPatience) : kPatience;
     withoutCells_ = drawn.areCells ? 0 : withoutCells_ + 1;
+    if (rise_ == Rise::AtOnce) forgetSlowCells();
     if (!drawn.areCells && rise_ == Rise::Proven) follow(drawn, since);
 }
 
 CanvasLimits Governor::limits(const DepthErrors* errors) const {
     return {.splats = rise_ == Rise::Proven ? proven_ : points_.budget(),
-            .cells = mostCells(),
+            .cells = cells_.budget(),
             .mayBeCoarse = true,
             .errors = errors};
 }
 
-std::uint64_t Governor::mostCells() const {
-    if (!mayTryCells()) return cells_.budget();
-    const unsigned whiles = std::min(withoutCells_ / patience_, cells_.isSure() ? 2u : 4u);
-    return std::max(cells_.budget(), cells_.fitting((1u << (whiles - 1)) * target_));
+void Governor::forgetSlowCells() {
+    if (cells_.budget() > firstCells_) patience_ = kPatience;
+    if (cells_.budget() >= firstCells_ || withoutCells_ < patience_) return;
+    cells_.forget();
+    withoutCells_ = 0;
+    patience_ = std::min(2 * patience_, kMostPatience);
 }
 
 // A rise too much is a fall at once, and so a swing: after one, the next rise has to wait longer.

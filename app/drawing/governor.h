@@ -19,7 +19,8 @@ class Governor {
         AtOnce,  // for a hand that drags for a second or two
         Proven,  // where a while has shown that they fit: for a picture that never rests
     };
-    explicit Governor(Rise rise = Rise::AtOnce) : rise_(rise) {}
+    explicit Governor(Rise rise = Rise::AtOnce)
+        : rise_(rise), firstCells_((rise == Rise::AtOnce ? 4 : 1) * render::FramePace::kFirst) {}
 
     // The time that drawing may take of a frame.
     void setTarget(std::chrono::nanoseconds target);
@@ -50,15 +51,15 @@ class Governor {
  private:
     void follow(const Drawn& drawn, std::chrono::nanoseconds since);
     // Where cells were found to take too long, as in a first frame that made room for them, none
-    // are drawn, and nothing tells when they would fit. So after a while without they may take all
-    // of the time, after each further one twice as much: up to twice the time, or eight times where
-    // few frames have told what one takes. Whiles are twice as long after what was too slow.
-    bool mayTryCells() const { return withoutCells_ > patience_; }
-    std::uint64_t mostCells() const;
+    // are drawn, and nothing tells when they would fit. So what fits less than it began with is
+    // forgotten after a while without cells, which is twice as long each time, but not in a picture
+    // that never rests.
+    void forgetSlowCells();
 
     Rise rise_;
-    std::chrono::nanoseconds target_ = std::chrono::milliseconds(8);
-    render::FramePace points_{target_}, cells_{target_};
+    render::FramePace points_{std::chrono::milliseconds(8)};
+    std::uint64_t firstCells_;
+    render::FramePace cells_{std::chrono::milliseconds(8), firstCells_};
     unsigned withoutCells_ = 0, patience_ = kPatience;  // frames
     // Where a rise is to be proven, the most points:
     std::uint64_t proven_ = render::FramePace::kFirst;

@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kFrames = 8;
 // Times of 0, from a clock that is too coarse, must not stop the model for good.
 constexpr double kLeastPerSplatNs = 1e-4;
-// Frames whose splats differ by less say nothing of what a splat costs: late ones differ by more.
-constexpr double kTellingDifference = 0.15;
+// Frames whose splats differ by less say nothing of what a splat costs.
+constexpr double kTellingDifference = 0.05;
 // Where splats take less of a frame, what one costs drowns in what frames differ by.
 constexpr double kTellingShare = 0.1;
 // A model from few frames may promise too much.
@@ -35,8 +35,6 @@ void FramePace::setTarget(std::chrono::nanoseconds target) {
     if (knows()) follow();
 }
 
-bool FramePace::isSure() const { return isTold_ && recent_.size() == kFrames; }
-
 std::optional<FramePace::Cost> FramePace::learnt() const {
     const double ofSplats = perSplatNs_ * mostSplats_;
     if (!isTold_ || mostSplats_ < double{kFewest} ||
@@ -52,6 +50,13 @@ void FramePace::beginFrom(const Cost& learnt) {
     mostSplats_ = learnt.splats;
     isTold_ = true;
     budget_ = static_cast<std::uint64_t>(fittingTarget());
+}
+
+void FramePace::forget() {
+    recent_.clear();
+    fixedNs_ = perSplatNs_ = mostSplats_ = 0;
+    isTold_ = false;
+    budget_ = first_;
 }
 
 void FramePace::took(std::uint64_t splats, std::chrono::nanoseconds time) {

@@ -24,11 +24,12 @@ class FramePace {
     };
     // None while frames are too few, too small or too much alike to tell what a splat costs.
     std::optional<Cost> learnt() const;
-    // Whether many frames have told so; of few, those that were late may be most.
-    bool isSure() const;
     // Forgets its frames for what another learnt, maybe on another machine: what the next ones take
     // counts as ever. REQUIRES: finite, not negative.
     void beginFrom(const Cost& learnt);
+
+    // All that was learnt: as before the first frame.
+    void forget();
 
     void setTarget(std::chrono::nanoseconds target);
     // A frame of `splats` splats (all eyes together) took so long.

@@ -79,7 +79,7 @@ std::uint64_t CellList::goOn(std::uint64_t cells) {
     if (placed_ < count_) return listed + place(left);
     if (!byFaces_) return listed;
     byFaces_->goOn(left / kForOneByFaces + 1);
-    return cells;
+    return listed + std::min(left, kForOneByFaces * count_);
 }
 
 // use(place in the list, cell, part).

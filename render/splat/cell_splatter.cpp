@@ -154,6 +154,7 @@ CellSum::~CellSum() = default;
 
 std::uint64_t CellSum::add(std::uint64_t cells) {
     Work& work = *work_;
+    if (cells == 0) return 0;
     if (!work.list.done()) {
         const std::uint64_t most = std::min(work.mostListed(), cells);
         return std::clamp<std::uint64_t>(work.list.goOn(kListedForOne * most) / kListedForOne, 1,
