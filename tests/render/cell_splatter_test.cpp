@@ -9,6 +9,7 @@
 #include <random>
 
 #include "render/reference/interval_truth.h"
+#include "render/splat/cell_pieces.h"
 #include "tests/support/cell_rays.h"
 #include "tests/support/scenes.h"
 #include "tests/support/sorted.h"
