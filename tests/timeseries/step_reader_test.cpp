@@ -45,6 +45,16 @@ Field fieldOf(std::array<std::size_t, 3> size, unsigned seed) {
     return tests::randomField<float>(random, size, 2);
 }
 
+// Files of so many steps, fieldOf(size, 0) and on, half a second apart.
+std::vector<fs::path> seriesOf(unsigned steps, std::array<std::size_t, 3> size) {
+    std::vector<fs::path> paths;
+    for (unsigned i = 0; i < steps; ++i)
+        paths.push_back(
+            put(tests::testFolder() / fmt::format("u_{:03}.isostep", i),
+                tests::written(SortedStep::build(fieldOf(size, i)), textOf(aboutAt(0.5 * i)))));
+    return paths;
+}
+
 TEST(StepReader, OpensWhatTheStepSaysOfItself) {
     const Field field = fieldOf({40, 30, 3}, 1);
     const SortedStep step = SortedStep::build(field);
@@ -75,12 +85,7 @@ TEST(StepReader, OpensWhatTheStepSaysOfItself) {
 }
 
 TEST(StepReader, SeveralAreASeriesByTheirTimesAndAreNotSortedAgain) {
-    std::vector<fs::path> paths;
-    for (int i = 0; i < 5; ++i)
-        paths.push_back(
-            put(tests::testFolder() / fmt::format("u_{}.isostep", i),
-                tests::written(SortedStep::build(fieldOf({40, 30, 3}, static_cast<unsigned>(i))),
-                               textOf(aboutAt(0.5 * i)))));
+    const std::vector<fs::path> paths = seriesOf(5, {40, 30, 3});
     StepMaker maker(openReader(paths), 0, RangeSet::everything());
     ASSERT_EQ(maker.variable().time->points.size(), 5u);
     EXPECT_EQ(maker.variable().time->points[3].value, 1.5);
@@ -100,12 +105,7 @@ TEST(StepReader, SeveralAreASeriesByTheirTimesAndAreNotSortedAgain) {
 
 // So many that threads share them.
 TEST(StepReader, OfHundredsTheFirstThatIsDamagedIsTold) {
-    std::vector<fs::path> paths;
-    for (int i = 0; i < 300; ++i)
-        paths.push_back(
-            put(tests::testFolder() / fmt::format("u_{:03}.isostep", i),
-                tests::written(SortedStep::build(fieldOf({4, 3, 3}, static_cast<unsigned>(i))),
-                               textOf(aboutAt(0.5 * i)))));
+    const std::vector<fs::path> paths = seriesOf(300, {4, 3, 3});
     const auto series = openReader(paths);
     const auto& points = series->variables()[0].time->points;
     ASSERT_EQ(points.size(), 300u);
@@ -117,12 +117,7 @@ TEST(StepReader, OfHundredsTheFirstThatIsDamagedIsTold) {
 
 // Who draws a step that came does not wait for the disk.
 TEST(StepReader, WhatIsLookedAtIsReadBeforeAStepComes) {
-    std::vector<fs::path> paths;
-    for (int i = 0; i < 2; ++i)
-        paths.push_back(
-            put(tests::testFolder() / fmt::format("u_{}.isostep", i),
-                tests::written(SortedStep::build(fieldOf({300, 300, 3}, static_cast<unsigned>(i))),
-                               textOf(aboutAt(0.5 * i)))));
+    const std::vector<fs::path> paths = seriesOf(2, {300, 300, 3});
     const RangeSet some({Range{{Number(0.0)}, {Number(0.05)}}});
     StepLoader loader(
         openReader(paths), 0, RangeSet::everything(), [] {}, Ready::Whole);
@@ -146,12 +141,7 @@ TEST(StepReader, WhatIsLookedAtIsReadBeforeAStepComes) {
 
 // Of those that have their points in memory two wait, and no more.
 TEST(StepReader, FewStepsWaitWithAllTheirPoints) {
-    std::vector<fs::path> paths;
-    for (int i = 0; i < 4; ++i)
-        paths.push_back(
-            put(tests::testFolder() / fmt::format("u_{}.isostep", i),
-                tests::written(SortedStep::build(fieldOf({300, 300, 3}, static_cast<unsigned>(i))),
-                               textOf(aboutAt(0.5 * i)))));
+    const std::vector<fs::path> paths = seriesOf(4, {300, 300, 3});
     std::counting_semaphore<> came{0};
     StepLoader loader(
         openReader(paths), 0, RangeSet::everything(), [&] { came.release(); }, Ready::Whole);

@@ -221,14 +221,12 @@ std::unique_ptr<Reader> openReader(std::span<const std::filesystem::path> paths)
         if (!its && !isToldLater) failUnknown(path);
     });
     const auto now = std::chrono::system_clock::now();
+    const auto openOne = [open = format.open](const std::filesystem::path& path) {
+        return open(std::span(&path, 1));
+    };
     auto reader = inOrderOfTime(format.joins || paths.size() == 1
                                     ? format.open(paths)
-                                    : openSequence(
-                                          paths,
-                                          [open = format.open](const std::filesystem::path& path) {
-                                              return open(std::span(&path, 1));
-                                          },
-                                          {}, {}, format.opensOn));
+                                    : openSequence(paths, openOne, {}, {}, format.opensOn));
     reader->openedAt = now;
     return reader;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include "timeseries/in_turn.h"
 #include "timeseries/readers/kept_readers.h"
 #include "timeseries/readers/series_files.h"
+#include "timeseries/readers/series_times.h"
 #include "timeseries/together.h"
 
 namespace timeseries {
@@ -32,11 +32,6 @@ std::optional<std::size_t> placeOf(const Variable& variable, std::span<const Var
     if (found == all.end()) return std::nullopt;
     return static_cast<std::size_t>(found - all.begin());
 }
-
-struct TimesOf {
-    double least, most;
-    std::size_t file;
-};
 
 class SequenceReader final : public Reader {
  public:
@@ -97,13 +92,11 @@ class SequenceReader final : public Reader {
         if (isGlanced_[file]) open(file);
     }
     std::optional<StepSpan> stepsOf(std::size_t variable, std::size_t file) const override {
-        const auto& begins = begins_[variable];
+        const auto& begins = times_[variable].begins;
         return StepSpan{begins[file], begins[file + 1] - begins[file]};
     }
 
  private:
-    using Axes = std::vector<std::shared_ptr<const TimeAxis>>;  // [file]
-
     struct Counts {
         std::uint64_t least = std::numeric_limits<std::uint64_t>::max(), most = 0;
     };
@@ -118,8 +111,6 @@ class SequenceReader final : public Reader {
     const Variable& expectSame(const Variable& expected, std::size_t file,
                                std::span<const Variable> its) const;
     void joinTimes(std::size_t v);
-    std::string ownTimesFail(std::size_t v) const;
-    TimeAxis ownTimes(std::size_t v) const;
     Reader& open(std::size_t file);
     struct Member {
         Reader& reader;
@@ -141,11 +132,10 @@ class SequenceReader final : public Reader {
     std::string format_;
     std::vector<Variable> variables_;  // the first file's, with the times of all
     std::vector<Counts> counts_;       // [variable]: points of the files that were opened
-    std::vector<Axes> axes_;           // [variable], while opening
-    std::vector<std::vector<std::size_t>> begins_;  // [variable][file]: its first step, and the end
-    std::vector<bool> hasOwnTimes_;                 // [variable]: the files' own
-    std::vector<bool> isGlanced_;                   // [file]: it was not opened with the series
-    std::vector<std::string> unfit_;  // while opening, why: of each that is glanced at
+    std::vector<TimesOfFiles> axes_;   // [variable], while opening
+    std::vector<SeriesTimes> times_;   // [variable]
+    std::vector<bool> isGlanced_;      // [file]: it was not opened with the series
+    std::vector<std::string> unfit_;   // while opening, why: of each that is glanced at
     KeptReaders open_;
 };
 
@@ -241,7 +231,7 @@ void SequenceReader::compare(std::size_t file, Glance& glance) const {
 
 void SequenceReader::add(std::size_t file, Glance glance) {
     isGlanced_[file] = true;
-    for (Axes& axes : axes_) axes.push_back(glance.time);
+    for (TimesOfFiles& axes : axes_) axes.push_back(glance.time);
     for (const std::string& name : glance.variables) tellLeftOut(name);
     if (!glance.flaw.empty()) unfit_.push_back(std::move(glance.flaw));
 }
@@ -261,102 +251,32 @@ void SequenceReader::tellUnfit() {
     unfit_.clear();
 }
 
-// "" when the files' own times are those of the series.
-std::string SequenceReader::ownTimesFail(std::size_t v) const {
-    const Axes& axes = axes_[v];
-    const auto name = [&](std::size_t f) { return paths_[f].filename().string(); };
-    const bool several =
-        std::ranges::any_of(axes, [](const auto& axis) { return axis->points.size() > 1; });
-    for (std::size_t f = 0; f < axes.size(); ++f)
-        if (axes[f]->counted) return fmt::format("{} has none", name(f));
-    for (std::size_t f = 1; f < axes.size(); ++f)
-        if (axes[f]->name != axes[0]->name)
-            return fmt::format("those of {} are called '{}', those of {} '{}'", name(0),
-                               axes[0]->name, name(f), axes[f]->name);
-    for (std::size_t f = 1; f < axes.size(); ++f)
-        if (axes[f]->units != axes[0]->units || axes[f]->calendar != axes[0]->calendar)
-            return fmt::format("those of {} are in \"{}\", those of {} in \"{}\"", name(0),
-                               axes[0]->units, name(f), axes[f]->units);
-    std::vector<TimesOf> inOrder;
-    for (std::size_t f = 0; f < axes.size(); ++f) {
-        const auto& points = axes[f]->points;
-        for (const TimePoint& point : points)
-            if (std::isnan(point.value))
-                return fmt::format("{} has one that is no number", name(f));
-        inOrder.push_back({std::ranges::min(points, {}, &TimePoint::value).value,
-                           std::ranges::max(points, {}, &TimePoint::value).value, f});
-    }
-    std::ranges::stable_sort(inOrder, {}, &TimesOf::least);
-    for (std::size_t i = 1; i < inOrder.size(); ++i) {
-        const TimesOf &a = inOrder[i - 1], &b = inOrder[i];
-        if (a.most < b.least) continue;
-        if (!several)
-            return fmt::format("{} and {} both have {}", name(a.file), name(b.file), a.most);
-        differ(a.file, b.file,
-               fmt::format("variable '{}': expected times that do not overlap, found {} to {} and "
-                           "{} to {}",
-                           variables_[v].name, a.least, a.most, b.least, b.most));
-    }
-    return "";
-}
-
-TimeAxis SequenceReader::ownTimes(std::size_t v) const {
-    TimeAxis axis = *axes_[v][0];
-    axis.points.clear();
-    for (const auto& each : axes_[v])
-        axis.points.insert(axis.points.end(), each->points.begin(), each->points.end());
-    return axis;
-}
-
 void SequenceReader::joinTimes(std::size_t v) {
     Variable& variable = variables_[v];
-    std::vector<std::size_t> begins{0};
-    bool single = true;
-    for (const auto& axis : axes_[v]) {
-        begins.push_back(begins.back() + axis->points.size());
-        single = single && axis->points.size() == 1;
-    }
-    TimeAxis time{"step", "", "", {}, true};
-    const std::string why = ownTimesFail(v);
-    hasOwnTimes_.push_back(why.empty());
-    if (why.empty()) {
-        time = ownTimes(v);
-    } else {
-        const auto numbers = single ? ascendingNumbers(paths_) : std::nullopt;
-        if (numbers) {
-            time.name = "number";
-            time.counted = false;
-        }
-        for (std::size_t i = 0; i < begins.back(); ++i)
-            time.points.push_back({numbers ? (*numbers)[i] : static_cast<double>(i), ""});
-        if (!std::ranges::all_of(axes_[v], [](const auto& axis) { return axis->counted; }))
-            variable.notes.push_back(
-                fmt::format("the files' own times are not used, steps are {}: {}",
-                            numbers ? "numbered as the files are" : "counted", why));
-    }
-    begins_.push_back(std::move(begins));
-    variable.time = std::make_shared<TimeAxis>(std::move(time));
+    times_.push_back(seriesTimes(variable.name, axes_[v], paths_));
+    variable.time = times_[v].time;
+    if (const std::string& note = times_[v].note; !note.empty()) variable.notes.push_back(note);
     for (std::size_t other = 0; other < v; ++other)
         if (axes_[other] == axes_[v]) variable.time = variables_[other].time;
 }
 
 // Expects the times of a file to be those with which the series was opened.
 void SequenceReader::expectThen(std::size_t v, std::size_t file, const TimeAxis& now) const {
-    const auto& begins = begins_[v];
+    const auto& [time, begins, areOwn, note] = times_[v];
     const std::size_t then = begins[file + 1] - begins[file];
     if (now.points.size() != then)
         throw FileError(
             fmt::format("{}: expected {} steps as when the series was opened, "
                         "found {}",
                         paths_[file].string(), then, now.points.size()));
-    const TimeAxis& series = *variables_[v].time;
-    if (hasOwnTimes_[v] && !now.counted &&
+    const TimeAxis& series = *time;
+    if (areOwn && !now.counted &&
         (now.name != series.name || now.units != series.units || now.calendar != series.calendar))
         throw FileError(fmt::format(
             "{}: expected times '{}' in \"{}\" as when the series was opened, found '{}' in \"{}\"",
             paths_[file].string(), series.name, series.units, now.name, now.units));
-    for (std::size_t i = 0; hasOwnTimes_[v] && i < then; ++i)
-        if (const double told = variables_[v].time->points[begins[file] + i].value;
+    for (std::size_t i = 0; areOwn && i < then; ++i)
+        if (const double told = series.points[begins[file] + i].value;
             now.counted || now.points[i].value != told)
             throw FileError(
                 fmt::format("{}: expected the time {} as when the series was opened, found {}",
@@ -375,7 +295,7 @@ Reader& SequenceReader::open(std::size_t file) {
 }
 
 SequenceReader::Member SequenceReader::memberOf(std::size_t variable, std::size_t step) {
-    const auto& begins = begins_[variable];
+    const auto& begins = times_[variable].begins;
     const auto file =
         static_cast<std::size_t>(std::ranges::upper_bound(begins, step) - begins.begin() - 1);
     Reader& reader = open(file);

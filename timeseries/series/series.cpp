@@ -38,11 +38,11 @@ std::vector<std::size_t> Series::missingWishes() const {
     std::vector<std::size_t> steps;
     std::uint64_t left = budget_;
     bool first = true;  // is kept whatever it takes
-    int open = 0;
+    int wished = 0;
     for (const std::size_t step : wishes_) {
         const Slot& slot = slots_[step];
         if (slot.state == SlotState::Failed) continue;
-        if (open++ == kMostOpen) break;
+        if (wished++ == kMostOpen) break;  // more would push each other out
         const std::uint64_t bytes = slot.summary ? slot.summary->bytes : largest_;
         if (bytes > left && !first) break;
         if (slot.state != SlotState::Loaded) steps.push_back(step);
