@@ -38,15 +38,6 @@ struct MpiProgram {
     ~MpiProgram() { MPI_Finalize(); }
 };
 
-// Whether each rank of a machine can sort a step of its own: the field, its sorted list, which is
-// made at once where most points have one value, and a quarter for all else.
-bool fitsEach(const timeseries::Variable& variable, unsigned ranksOfMachine) {
-    const std::uint64_t value =
-        timeseries::withType(variable.type, [](auto of) { return std::uint64_t{sizeof of}; });
-    return variable.grid->count() * (2 * value + 4) <
-           timeseries::machineMemory() / 4 * 3 / ranksOfMachine;
-}
-
 // This rank's part of a grid: slices along the last index that has enough of them, else along the
 // longest.
 timeseries::Slab slabOf(const std::array<std::size_t, 3>& size, const Ranks& ranks) {
@@ -193,7 +184,9 @@ IndexedSteps indexAll(const Ranks& ranks, const IndexOptions& options,
         for (const IndexTask& task : tasks) {
             if (task.variable == last) continue;
             last = task.variable;
-            if (!fitsEach(openDataset(options.files, last).variable, beside)) rounds = 0;
+            if (!fitsEach(openDataset(options.files, last).variable, timeseries::machineMemory(),
+                          beside))
+                rounds = 0;
         }
     });
     if (ranks.sum(rounds == 0) > 0) rounds = 0;  // machines may differ
@@ -240,6 +233,10 @@ int indexOf(const Ranks& ranks, const IndexOptions& options) {
     std::shared_ptr<StepStore> store;
     std::vector<IndexTask> tasks;
     ranks.agreed([&] {
+        if (options.jobs > 1)
+            throw FileError(fmt::format(
+                "--jobs {}: expected none beside mpirun, of whose processes each sorts a step",
+                options.jobs));
         store = indexStoreOf(options);
         tasks = indexTasksOf(options);
     });

@@ -13,6 +13,7 @@
 #include "app/files/dataset.h"
 #include "app/files/step_cache.h"
 #include "app/say.h"
+#include "timeseries/grid/with_type.h"
 
 namespace app {
 
@@ -84,6 +85,12 @@ std::shared_ptr<StepStore> indexStoreOf(const IndexOptions& options) {
     auto store = options.beside ? storeBeside(files) : stepCache();
     if (!store) throw FileError("there is no folder to keep sorted steps in: --cache names one");
     return store;
+}
+
+bool fitsEach(const timeseries::Variable& variable, std::uint64_t memory, unsigned processes) {
+    const std::uint64_t value =
+        timeseries::withType(variable.type, [](auto of) { return std::uint64_t{sizeof of}; });
+    return variable.grid->count() * (2 * value + 4) < memory / 4 * 3 / processes;
 }
 
 IndexWork::IndexWork(const IndexOptions& options, std::shared_ptr<StepStore> store,

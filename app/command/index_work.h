@@ -31,6 +31,11 @@ std::vector<IndexTask> indexTasksOf(const IndexOptions& options);
 // there. Throws FileError.
 std::shared_ptr<timeseries::StepStore> indexStoreOf(const IndexOptions& options);
 
+// Whether each of so many processes that share a machine's memory (bytes) can sort a step of its
+// own: the field, its sorted list, which is made at once where most points have one value, and a
+// quarter for all else.
+bool fitsEach(const timeseries::Variable& variable, std::uint64_t memory, unsigned processes);
+
 struct IndexedSteps {
     std::array<std::size_t, timeseries::StepMaker::kKept> kept{};  // by StepMaker::Kept
     std::size_t failed = 0;

@@ -138,8 +138,10 @@ Canvas::State::Moving Canvas::State::moving(const render::Scene& whole,
                                             const CanvasLimits& limits) const {
     const bool hasCells = whole.cells != nullptr;
     const bool hasPoints = !hasCells || isThere(*screen->held, byPoints(whole));
-    const auto fits = [&](const Rung& on, double share) {
-        return keepsTo(limits, sceneOn(on, whole), render::coarser(eyes, on.across), share);
+    const auto truestWithin = [&](const CanvasLimits& budgets, const std::vector<Rung>& rungs) {
+        return truestThatFits(rungs, rung, limits.errors, [&](const Rung& on, double share) {
+            return keepsTo(budgets, sceneOn(on, whole), render::coarser(eyes, on.across), share);
+        });
     };
     std::vector<Rung> rungs = ladder({.cells = hasCells && !listsForLong(whole),
                                       .points = hasPoints,
@@ -147,7 +149,13 @@ Canvas::State::Moving Canvas::State::moving(const render::Scene& whole,
                                       .coarsePoints = mayBeCoarse(whole.footprint),
                                       .mostStride = render::kMaxStride});
     if (limits.most) rungs = from(*limits.most, std::move(rungs));
-    Rung on = limits.rung ? *limits.rung : truestThatFits(rungs, rung, limits.errors, fits);
+    Rung on = limits.rung ? *limits.rung : truestWithin(limits, rungs);
+    if (!limits.rung && limits.slower && showsNothing(on, hasCells, limits.errors)) {
+        CanvasLimits slower = limits;
+        slower.splats = limits.slower->splats;
+        slower.cells = limits.slower->cells;
+        on = truestWithin(slower, rungs);
+    }
     if (!hasCells) on.model = Model::Points;
     if (on.model == Model::Points && !mayBeCoarse(whole.footprint)) on.across = 1;
     if (on.model == Model::Points && !hasPoints) on = {};

@@ -32,6 +32,11 @@ struct CanvasLimits {
     std::uint64_t splats = 1'000'000;
     // In one frame of cells, whose cost is told less well and learnt apart; absent: as many.
     std::optional<std::uint64_t> cells = {};
+    // Of a picture that moves, where what keeps to these shows nothing of the field: so many.
+    struct Slower {
+        std::uint64_t splats, cells;
+    };
+    std::optional<Slower> slower = {};
     // Of a picture that moves, instead of these: drawn so, whatever it takes.
     std::optional<Rung> rung = {};
     // Of a picture that moves, too: what is drawn keeps to these, and draws no more than this.

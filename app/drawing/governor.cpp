@@ -5,6 +5,7 @@
 namespace app {
 
 void Governor::setTarget(std::chrono::nanoseconds target) {
+    target_ = target;
     points_.setTarget(target);
     cells_.setTarget(target);
 }
@@ -24,10 +25,19 @@ void Governor::took(const Drawn& drawn, std::chrono::nanoseconds time,
 }
 
 CanvasLimits Governor::limits(const DepthErrors* errors) const {
-    return {.splats = rise_ == Rise::Proven ? proven_ : points_.budget(),
-            .cells = cells_.budget(),
-            .mayBeCoarse = true,
-            .errors = errors};
+    CanvasLimits limits{.splats = rise_ == Rise::Proven ? proven_ : points_.budget(),
+                        .cells = cells_.budget(),
+                        .mayBeCoarse = true,
+                        .errors = errors};
+    if (rise_ == Rise::AtOnce) limits.slower.emplace(slower());
+    return limits;
+}
+
+CanvasLimits::Slower Governor::slower() const {
+    render::FramePace points = points_, cells = cells_;
+    points.setTarget(std::max(target_, kSlowest));
+    cells.setTarget(std::max(target_, kSlowest));
+    return {points.budget(), cells.budget()};
 }
 
 void Governor::forgetSlowCells() {

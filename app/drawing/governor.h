@@ -49,6 +49,8 @@ class Governor {
     void beginFrom(const DrawingCosts& learnt);
 
  private:
+    // Twenty frames a second still move.
+    CanvasLimits::Slower slower() const;
     void follow(const Drawn& drawn, std::chrono::nanoseconds since);
     // Where cells were found to take too long, as in a first frame that made room for them, none
     // are drawn, and nothing tells when they would fit. So what fits less than it began with is
@@ -57,6 +59,7 @@ class Governor {
     void forgetSlowCells();
 
     Rise rise_;
+    std::chrono::nanoseconds target_{0};
     render::FramePace points_{std::chrono::milliseconds(8)};
     std::uint64_t firstCells_;
     render::FramePace cells_{std::chrono::milliseconds(8), firstCells_};
@@ -66,6 +69,7 @@ class Governor {
     std::uint64_t risen_ = 0;  // the least that would have fitted for so long:
     std::chrono::nanoseconds fits_{0}, wait_ = kWait, sinceRise_ = kCalm;
 
+    static constexpr std::chrono::nanoseconds kSlowest = std::chrono::milliseconds(40);  // of 50
     static constexpr std::chrono::nanoseconds kWait = std::chrono::milliseconds(500),
                                               kLongestWait = std::chrono::seconds(2),
                                               kCalm = std::chrono::seconds(10);

@@ -19,6 +19,10 @@ inline Rung rungOf(const render::Scene& whole) {
 // What is drawn on a rung of a scene that has all of it.
 render::Scene sceneOn(const Rung& rung, const render::Scene& whole);
 
+// Whether it tells of what is left out more than of the field: it is known to be so far off or,
+// where errors are not known, has some of the points in place of cells.
+bool showsNothing(const Rung& rung, bool ofCells, const DepthErrors* errors);
+
 // Of those that fit the truest, by what is known of errors; without errors the first. Where none
 // fits the last. `fits(rung, share)`: whether it keeps to this share of the limits; `last`: what
 // was drawn before.

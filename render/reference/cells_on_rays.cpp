@@ -42,7 +42,7 @@ std::vector<double> depthAt(const Scene& scene, const View& view,
     std::vector<IntervalCells> layers;
     for (const Layer& layer : scene.layers)
         layers.emplace_back(scene.cells->field(), scene.clip, layer.cells.ranges, 1,
-                            IntervalCells::Look::WhenAsked);
+                            IntervalCells::Look::WhenAsked, scene.opacityPer);
     const auto isEnough = [&](double depth) {
         return end == RaysEnd::WhereSomethingIs && depth > 0;
     };

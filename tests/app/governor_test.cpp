@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace app {
@@ -34,6 +35,26 @@ TEST(Governor, FillsItsTimeWithPointsOrCellsWhichAreLearntApart) {
     governor.setTarget(5ms);
     EXPECT_NEAR(static_cast<double>(*governor.limits(nullptr).cells), 5e4, 5e3);
     EXPECT_EQ(governor.limits(nullptr).splats, render::FramePace::kFirst);
+}
+
+// Twenty frames a second leave 40 ms for drawing; a display has no time to give.
+TEST(Governor, KnowsWhatFitsASlowerPaceThatStillMoves) {
+    for (const auto target : {10ms, 80ms}) {
+        Governor governor;
+        governor.setTarget(target);
+        draw(governor, 20);
+        draw(governor, 20, true);
+        const auto slower = governor.limits(nullptr).slower;
+        ASSERT_TRUE(slower);
+        const auto taking = [](nanoseconds time) {
+            return static_cast<double>(time.count()) / 100;
+        };
+        const double fit = taking(std::max<nanoseconds>(target, 40ms));
+        const double known = std::min(fit, 3 * taking(target));  // of more points nothing is known
+        EXPECT_NEAR(static_cast<double>(slower->splats), known, 0.1 * known);
+        EXPECT_NEAR(static_cast<double>(slower->cells), fit, 0.1 * fit);
+    }
+    EXPECT_FALSE(Governor(Governor::Rise::Proven).limits(nullptr).slower);
 }
 
 // Four times as much fits from now on. A hand that drags gets it in the next frames, a picture

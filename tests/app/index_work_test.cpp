@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "tests/support/files.h"
+#include "tests/support/random_field.h"
 #include "timeseries/readers/reader.h"
 
 namespace app {
@@ -132,6 +134,19 @@ TEST_F(IndexWorks, WhatSeveralStepsFailAtIsToldOnce) {
     EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("1005 steps: 0 written"));
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
               "isochron: one (3 steps)\nisochron: several (1,001 steps)\nisochron: alone\n");
+}
+
+// A million floats take 4 MB, their list 4, and a quarter more of what else there is; three
+// quarters of the memory are for the steps.
+TEST(FitsEach, OfTheProcessesThatShareAMachinesMemory) {
+    timeseries::Variable of;
+    of.type = timeseries::ValueType::F32;
+    of.grid = tests::gridOf(std::array<std::size_t, 3>{100, 100, 100});
+    for (const unsigned processes : {1u, 2u, 8u}) {
+        const std::uint64_t needed = 12'000'000ull * processes / 3 * 4;
+        EXPECT_TRUE(fitsEach(of, needed + 100, processes));
+        EXPECT_FALSE(fitsEach(of, needed - 100, processes));
+    }
 }
 
 // Of ten: what is there by now took no time, and tells nothing of the others.

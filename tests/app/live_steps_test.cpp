@@ -6,6 +6,7 @@
 #include <semaphore>
 #include <thread>
 
+#include "app/files/step_cache.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 #include "tests/support/scripted_reader.h"
@@ -119,6 +120,36 @@ TEST(LiveSteps, ManyStepsOnDiskComeInAFrame) {
     }
     EXPECT_EQ(open, timeseries::Series::kMostOpen);
     EXPECT_TRUE(steps.series().isStored(150));
+}
+
+// Of eight million points, whose file is settled.
+TEST(LiveSteps, WhatAWindowSortedIsOpenedTheNextTime) {
+    const std::filesystem::path folder = tests::freshFolder(), file = folder / "f.nrrd";
+    constexpr std::size_t kEdge = 200;
+    std::string bytes(kEdge * kEdge * kEdge, '\0');
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i % 101);
+    tests::writeBytes(
+        file, "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 200 200 200\nencoding: raw\n\n" + bytes);
+    chooseStepCache((folder / "steps").string());
+    std::this_thread::sleep_for(timeseries::StepStore::kSettled);
+    const auto isStored = [&] {
+        OpenDataset dataset = openDataset(std::vector{file}, "");
+        std::counting_semaphore<> came{0};
+        LiveSteps steps(dataset, timeseries::RangeSet::everything(), std::uint64_t{1} << 30,
+                        [&] { came.release(); });
+        steps.want({0});
+        EXPECT_TRUE(came.try_acquire_for(std::chrono::seconds(60)));
+        const auto arrivals = steps.poll();
+        EXPECT_EQ(arrivals.size(), 1u);
+        // While it is shown, and nothing is asked for.
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (stepCache()->isEmpty() && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return steps.series().isStored(0);
+    };
+    EXPECT_FALSE(isStored());
+    EXPECT_TRUE(isStored());
+    chooseStepCache("");
 }
 
 TEST_F(LiveStepsDropping, FreesByAnotherThreadWhoeverLooksAtItLast) {

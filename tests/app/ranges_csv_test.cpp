@@ -12,6 +12,7 @@
 
 #include "app/files/dataset.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/sorted.h"
 #include "timeseries/index/sorted_step.h"
 
 namespace app {
@@ -75,7 +76,7 @@ void expectAgreement(const std::filesystem::path& file, const std::vector<Row>& 
         const std::size_t steps = dataset.reader->variables()[variable].time->points.size();
         for (const Row* row : its) ASSERT_EQ(row->percents.size(), steps) << file;
         for (std::size_t step = 0; step < steps; ++step) {
-            const auto sorted = timeseries::SortedStep::build(dataset.reader->read(variable, step));
+            const auto sorted = tests::sorted(dataset.reader->read(variable, step));
             for (const Row* row : its) {
                 const double percent = 100.0 * static_cast<double>(sorted.count(row->ranges)) /
                                        static_cast<double>(sorted.statistics().points);

@@ -554,6 +554,9 @@ def window_page(part):
     for what, _, middle, _ in rows:
         if what.strip() in asked:
             target(f"window: {what.strip().replace('^3', '³')}", float(middle) * 1e-3, asked[what.strip()] * 1e-3, shown=time)
+    shell = re.search(r"^a shell swept through the fire has while it moves ([\d.]+) of its pixels at rest, at least ([\d.]+)", part.figures, re.M)
+    if shell:
+        target("window: pixels of a shell swept through the fire, while it moves / at rest", float(shell[1]), 0.8, at_least=True)
     memory = {what: float(most) for what, most in re.findall(r"^(between steps, .*? shown), most memory (\d+) MB", part.figures, re.M)}
     for what, most in memory.items():
         if "1024" in what:

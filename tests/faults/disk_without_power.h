@@ -87,7 +87,8 @@ class Disk {
     std::mt19937_64& random_;
     std::vector<File> files_;
     Names names_;
-    std::vector<Names> namesThen_;  // as they were since the folder was synced, the oldest first
+    std::vector<Names> namesThen_{
+        Names()};  // as they were since the folder was synced, the oldest first
 };
 
 }  // namespace tests

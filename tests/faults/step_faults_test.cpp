@@ -299,6 +299,20 @@ class StoresWithoutRoom : public step_stores::StepStores {
     }
 };
 
+using StoresWithoutLocks = StoresWithoutRoom;
+
+TEST_F(StoresWithoutLocks, TellItOnceAndKeepStepsAsEver) {
+    calls.flock = [](std::size_t, std::size_t) { return std::optional<long>(-ENOLCK); };
+    for (int i = 0; i < 2; ++i) {
+        fs::remove(store->pathOf(origin()));
+        EXPECT_EQ(maker()->keep(0), StepMaker::Kept::Written);
+    }
+    EXPECT_THAT(store->takeNotes(), ElementsAre(HasSubstr("knows no locks")));
+    const auto step = maker()->make(0);
+    EXPECT_TRUE(step->file());
+    step_stores::expectField(*step, 100);
+}
+
 TEST_F(StoresWithoutRoom, AtAnyLengthTellItAndHaveNothing) {
     ASSERT_EQ(maker()->keep(0), StepMaker::Kept::Written);
     const fs::path path = store->pathOf(origin());
@@ -329,34 +343,38 @@ TEST_F(StoresWithoutRoom, AtAnyLengthTellItAndHaveNothing) {
     }
 }
 
-TEST_F(StepFaults, WheneverThePowerGoesTheFileIsTheOldOrTheNewOne) {
-    write();
-    const std::string before = tests::readBytes(path);
-    step = SortedStep::build(tests::randomField<float>(random, {60, 50, 40}, 0));
-    watched = folder.string();
-    write();
-    watched.reset();
-    const std::string after = tests::readBytes(path);
-    ASSERT_NE(before, after);
-    ASSERT_GE(done.size(), 6u);  // pieces, header, sync, rename, sync of the folder
-    std::size_t old = 0, anew = 0;
-    for (std::size_t crash = 0; crash <= done.size(); ++crash)
-        for (int i = 0; i < tests::rounds(50); ++i) {
-            tests::Disk disk(random);
-            disk.put(path.string(), before);
-            for (std::size_t d = 0; d < crash; ++d) disk.doIt(done[d]);
-            const auto left = disk.afterTheCrash();
-            ASSERT_TRUE(left.contains(path.string())) << crash;
-            const std::string& found = left.at(path.string());
-            ASSERT_TRUE(found == before || found == after) << "after " << crash << " calls";
-            old += found == before;
-            anew += found == after;
-            if (crash == done.size()) {
-                ASSERT_EQ(found, after);
+TEST_P(StepWriters, WheneverThePowerGoesTheFileIsTheOldOrTheNewOne) {
+    takeAStep({60, 50, 40});
+    for (const bool isOneThere : {false, true}) {
+        if (isOneThere) takeAStep({60, 50, 40});
+        const std::string before = tests::readBytes(path);  // "" of none
+        done.clear();
+        watched = folder.string();
+        write();
+        watched.reset();
+        const std::string after = tests::readBytes(path);
+        ASSERT_NE(before, after);
+        ASSERT_GE(done.size(), 6u);  // pieces, header, sync, rename, sync of the folder
+        std::size_t old = 0, anew = 0;
+        for (std::size_t crash = 0; crash <= done.size(); ++crash)
+            for (int i = 0; i < tests::rounds(50); ++i) {
+                tests::Disk disk(random);
+                if (isOneThere) disk.put(path.string(), before);
+                for (std::size_t d = 0; d < crash; ++d) disk.doIt(done[d]);
+                const auto left = disk.afterTheCrash();
+                ASSERT_TRUE(left.contains(path.string()) || !isOneThere) << crash;
+                const std::string found =
+                    left.contains(path.string()) ? left.at(path.string()) : "";
+                ASSERT_TRUE(found == before || found == after) << "after " << crash << " calls";
+                old += found == before;
+                anew += found == after;
+                if (crash == done.size()) {
+                    ASSERT_EQ(found, after);
+                }
             }
-        }
-    EXPECT_GT(old, 0u);
-    EXPECT_GT(anew, 0u);
+        EXPECT_GT(old, 0u);
+        EXPECT_GT(anew, 0u);
+    }
 }
 
 }  // namespace

@@ -177,6 +177,31 @@ TEST_F(CanvasOfNoise, OfWhatFitsTheTruestIsDrawn) {
     EXPECT_FALSE(report_.whole);
 }
 
+// But where all that fits would show nothing of the field, what a slower pace has room for.
+TEST_F(CanvasOfNoise, APaceGivesWayWhereItWouldShowNothing) {
+    world_.explorer.model = Model::Cells;
+    draw(world_.shown());
+    for (const double error : {0.9, 0.3}) {
+        DepthErrors errors;
+        for (const Rung& rung : ladder({}))
+            errors.rungs.push_back({.rung = rung, .depth = rung == Rung() ? 0.01 : error});
+        CanvasLimits limits{.splats = 2'000, .mayBeCoarse = true, .errors = &errors};
+        for (const std::uint64_t slower : {100'000'000u, 2'000u}) {
+            limits.slower = {slower, slower};
+            draw(world_.shown(), limits, true);
+            EXPECT_EQ(report_.whole, error > 0.5 && slower > 2'000) << error << ' ' << slower;
+        }
+    }
+    // And where errors are not known some points in place of cells, but not of points.
+    for (const Model model : {Model::Cells, Model::Points}) {
+        world_.explorer.model = model;
+        CanvasLimits limits{.splats = 2'000, .mayBeCoarse = true};
+        limits.slower = {100'000'000, 100'000'000};
+        draw(world_.shown(), limits, true);
+        EXPECT_EQ(report_.whole, model == Model::Cells);
+    }
+}
+
 // Of a step of which no points were drawn before.
 TEST_F(CanvasOfNoise, PointsThatStandForCellsComeToTheGpu) {
     world_.explorer.model = Model::Cells;

@@ -5,6 +5,8 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <numeric>
 #include <random>
 #include <thread>
@@ -16,6 +18,7 @@
 #include "tests/support/step_bytes.h"
 #include "timeseries/index/brick_order.h"
 #include "timeseries/index/id_codec.h"
+#include "timeseries/index/step_header.h"
 
 namespace timeseries {
 namespace {
@@ -275,6 +278,64 @@ TEST(StepFile, WithRightChecksumsAndWrongContentsIsRefusedOrAList) {
         }
     }
     EXPECT_GT(refused, 0);
+}
+
+// Whose sums are right, too: a point that stands twice, in place of another, and what is told of
+// all of them.
+TEST(StepFile, IsReadWholeToSeeWhetherItTellsTheTruth) {
+    const auto whole = tests::written(smooth({64, 48, 40}), "about");
+    const auto refusal = [&](const std::function<void(std::vector<std::byte>&)>& change) {
+        auto bytes = whole;
+        change(bytes);
+        tests::sumAnew(bytes);
+        try {
+            tests::opened(std::move(bytes))->check();
+        } catch (const DamagedStepError& error) {
+            return std::string(error.what());
+        }
+        return std::string("believed");
+    };
+    EXPECT_EQ(refusal([](auto&) {}), "believed");
+    const auto blocks = tests::opened(whole)->blocks();
+    ASSERT_GT(blocks.size(), 2u);
+    StepHeader header;
+    std::memcpy(&header, whole.data(), sizeof header);
+    EXPECT_THAT(refusal([&](auto& bytes) {  // the second block has the first one's points
+                    StepBlock second = blocks[1];
+                    second.idsAt = blocks[0].idsAt;
+                    second.idsBytes = blocks[0].idsBytes;
+                    std::memcpy(bytes.data() + header.directory.at + sizeof second, &second,
+                                sizeof second);
+                }),
+                HasSubstr("stands in its list twice"));
+    for (std::size_t i = 0; i < header.extent.size(); ++i)
+        EXPECT_THAT(refusal([&](auto& bytes) {
+                        bytes[offsetof(StepHeader, extent) + 8 * i] ^= std::byte{1};
+                    }),
+                    HasSubstr("least and greatest values are not those"))
+            << i;
+    EXPECT_THAT(refusal([&](auto& bytes) { bytes[header.summary.at + 8 + 8 * 5] ^= std::byte{1}; }),
+                HasSubstr("quantiles are not those"));
+}
+
+// Of another version or machine nothing is damaged.
+TEST(StepFile, OfAnotherVersionOrByteOrderIsToldApart) {
+    const auto refusal = [&](std::size_t at, std::uint32_t number) {
+        auto bytes = tests::written(smooth({20, 20, 20}));
+        std::memcpy(bytes.data() + at, &number, sizeof number);
+        tests::sumAnew(bytes);
+        try {
+            (void)tests::opened(std::move(bytes));
+        } catch (const OtherStepError& error) {
+            return std::string(error.what());
+        }
+        return std::string("opened");
+    };
+    EXPECT_EQ(refusal(offsetof(StepHeader, version), kStepVersion), "opened");
+    EXPECT_THAT(refusal(offsetof(StepHeader, version), kStepVersion + 1),
+                HasSubstr("bytes is of version 2 of the index, expected 1"));
+    EXPECT_THAT(refusal(offsetof(StepHeader, endian), 0x04030201),
+                HasSubstr("bytes was written on a machine of the other byte order"));
 }
 
 TEST(StepFile, TurnedOutToBeDamagedIsMadeAgainOnceAndIsTheSame) {

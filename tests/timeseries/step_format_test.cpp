@@ -6,6 +6,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 #include <random>
@@ -132,6 +133,18 @@ std::vector<std::uint64_t> keysOf(std::string_view stored, std::size_t points, s
     return keys;
 }
 
+// Of each 256 blocks first their ids lie one behind the other, then their keys; from the header on.
+void expectInPlace(const Bytes& file, std::size_t directory, std::uint64_t blocks) {
+    std::uint64_t at = 4096;
+    for (std::uint64_t first = 0; first < blocks; first += 256)
+        for (const std::size_t part : {0u, 1u})  // ids, keys
+            for (std::uint64_t b = first; b < std::min(first + 256, blocks); ++b) {
+                const std::size_t block = directory + 56 * b;
+                EXPECT_EQ(file.at<std::uint64_t>(block + 16 + 8 * part), at);
+                at += file.at<std::uint32_t>(block + 32 + 4 * part);
+            }
+}
+
 // All of a file's points, in the order of their codes within each block.
 std::vector<Point> pointsOf(const Bytes& file, const std::array<std::uint64_t, 3>& size) {
     EXPECT_EQ(file.part(0, 8), "isostep\n");
@@ -146,6 +159,8 @@ std::vector<Point> pointsOf(const Bytes& file, const std::array<std::uint64_t, 3
               hashOf(file.part(directory, file.at<std::uint64_t>(120))));
     EXPECT_EQ(file.at<std::uint64_t>(152),
               hashOf(file.part(file.at<std::uint64_t>(136), file.at<std::uint64_t>(144))));
+    for (std::size_t at = 168; at < 4096; ++at) EXPECT_EQ(file.at<std::uint8_t>(at), 0) << at;
+    expectInPlace(file, directory, file.at<std::uint64_t>(64));
     const Bricks bricks(size);
     std::vector<Point> points;
     for (std::uint64_t block = 0; block < file.at<std::uint64_t>(64); ++block) {
@@ -189,9 +204,41 @@ std::uint64_t keyOf(T value) {
     }
 }
 
+// The type's number in the header's table.
+template <typename T>
+constexpr std::uint32_t numberOfType() {
+    if (std::is_floating_point_v<T>) return sizeof(T) == 4 ? 8 : 9;
+    return 2 * std::uint32_t(std::bit_width(sizeof(T)) - 1) + (std::is_signed_v<T> ? 1 : 0);
+}
+
+// What header and summary tell of all points, of a list of their values in order and of how many
+// there are none.
+template <typename T>
+void expectFacts(const Bytes& file, std::vector<T> list, std::uint64_t missing) {
+    EXPECT_EQ(file.at<std::uint32_t>(24), numberOfType<T>());
+    EXPECT_EQ(file.at<std::uint64_t>(56), missing);
+    EXPECT_EQ(file.at<T>(72), list.front());
+    EXPECT_EQ(file.at<T>(80), list.back());
+    std::erase_if(list, [](T value) { return !std::isfinite(static_cast<double>(value)); });
+    EXPECT_EQ(file.at<std::uint64_t>(104), list.empty() ? 0u : 1u);
+    const auto summary = file.at<std::uint64_t>(136), bytes = file.at<std::uint64_t>(144);
+    const auto quantiles = file.at<std::uint64_t>(summary);
+    EXPECT_EQ(file.part(summary + 8 + 8 * quantiles, bytes - 8 - 8 * quantiles), "about");
+    ASSERT_EQ(quantiles > 1, !list.empty());
+    if (list.empty()) return;
+    EXPECT_EQ(file.at<T>(88), list.front());
+    EXPECT_EQ(file.at<T>(96), list.back());
+    for (std::uint64_t q = 0; q < quantiles; ++q) {
+        const double rank = double(q) / double(quantiles - 1) * double(list.size() - 1);
+        EXPECT_EQ(file.at<double>(summary + 8 + 8 * q),
+                  static_cast<double>(list[std::size_t(std::llround(rank))]));
+    }
+}
+
 template <typename T>
 class StepFormatOf : public testing::Test {};
-using Types = testing::Types<std::uint8_t, std::int16_t, std::int64_t, float, double>;
+using Types = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t,
+                             std::int32_t, std::uint64_t, std::int64_t, float, double>;
 TYPED_TEST_SUITE(StepFormatOf, Types);
 
 TYPED_TEST(StepFormatOf, IsWhatIsWrittenDown) {
@@ -204,13 +251,18 @@ TYPED_TEST(StepFormatOf, IsWhatIsWrittenDown) {
                 tests::randomField<T>(random, {std::size_t(size[0]), size[1], size[2]}, kind);
             const auto& values = std::get<std::vector<T>>(field.values);
             std::vector<Point> expected;
+            std::vector<T> list;
             for (std::size_t i = 0; i < values.size(); ++i)
-                if (values[i] == values[i] && (field.missing.empty() || !field.missing[i]))
+                if (values[i] == values[i] && (field.missing.empty() || !field.missing[i])) {
                     expected.push_back({i, keyOf(values[i])});
+                    list.push_back(values[i]);
+                }
             std::ranges::sort(expected);
-            const auto bytes = tests::written(SortedStep::build(field), "about");
-            auto points =
-                pointsOf(Bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()}), size);
+            std::ranges::sort(list);
+            const auto written = tests::written(SortedStep::build(field), "about");
+            const Bytes bytes({reinterpret_cast<const char*>(written.data()), written.size()});
+            expectFacts(bytes, list, values.size() - list.size());
+            auto points = pointsOf(bytes, size);
             ASSERT_EQ(points.size(), expected.size());
             // A block's points are those of the list, whatever their order in it.
             constexpr std::size_t kBlock = 32768;

@@ -4,11 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <functional>
+#include <memory>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <semaphore>
 #include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/step_stores.h"
 
 namespace timeseries {
 namespace {
@@ -250,6 +258,55 @@ TEST(StepLoader, DestructionWaitsForTheRunningReadAndForNoWish) {
     }
     EXPECT_TRUE(script.destroyed);
     EXPECT_LE(script.reads, 2);  // as many as may wait to be polled
+}
+
+// Six steps of a file each, sorted by a loader that has a store.
+class StepLoaderWrites : public step_stores::StepStores {
+ protected:
+    static constexpr std::size_t kSteps = 6, kAhead = 2;  // that wait to be polled
+    StepLoaderWrites() {
+        std::vector<fs::path> paths;
+        for (std::size_t s = 0; s < kSteps; ++s)
+            paths.push_back(step_stores::nrrdOf(folder / ("f_" + std::to_string(s) + ".nrrd"), 50));
+        loader_.emplace(
+            openReader(paths), 0, RangeSet::everything(), [this] { came_.release(); }, Ready::Asked,
+            timeseries::StepStores{{store}, store, 1});
+    }
+    void wantAll(StepLoader::Haste haste) {
+        loader_->want({0, 1, 2, 3, 4, 5}, haste);
+        for (std::size_t i = 0; i < kAhead; ++i) came_.acquire();
+    }
+    // Those that are looked at stay, and can be written.
+    void takeAll() {
+        while (auto result = loader_->waitAndPoll())
+            held_.push_back(std::get<Loaded>(*result).sorted);
+        ASSERT_EQ(held_.size(), kSteps);
+    }
+    void expectAllWritten() const {
+        const auto end = std::chrono::steady_clock::now() + 60s;
+        while (store->list().size() < kSteps && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(1ms);
+        EXPECT_EQ(store->list().size(), kSteps);
+    }
+
+    std::counting_semaphore<> came_{0};
+    std::vector<std::shared_ptr<const SortedStep>> held_;
+    std::optional<StepLoader> loader_;
+};
+
+// What somebody waits for comes first: the second result is there, and the first step unwritten.
+TEST_F(StepLoaderWrites, OnceNothingIsAskedFor) {
+    wantAll(StepLoader::Haste::Waited);
+    EXPECT_EQ(store->list().size(), 0u);
+    takeAll();
+    expectAllWritten();
+}
+
+TEST_F(StepLoaderWrites, AsTheyComeWhereNobodyWaits) {
+    wantAll(StepLoader::Haste::Nobody);
+    EXPECT_GE(store->list().size(), 1u) << "with four steps to come";
+    takeAll();
+    expectAllWritten();
 }
 
 TEST(StepLoader, DestructionEndsWhileResultsWait) {

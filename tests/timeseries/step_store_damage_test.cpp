@@ -1,4 +1,5 @@
 // Stores whose files are damaged, cannot be written or are written by many at once.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,6 +9,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -25,6 +27,19 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+
+class KilledWriters : public StepStores {
+ protected:
+    // Whether a process began a file there and did not finish it.
+    bool leftOne(pid_t process) const {
+        std::error_code none;
+        for (const auto& entry : fs::directory_iterator(folder / "steps", none))
+            if (entry.path().filename().string().find(fmt::format(".{}-", process)) !=
+                std::string::npos)
+                return true;
+        return false;
+    }
+};
 
 TEST_F(StepStores, WhatIsDamagedIsRemovedToldAndSortedAnew) {
     (void)maker()->keep(0);
@@ -47,6 +62,22 @@ TEST_F(StepStores, WhatIsDamagedIsRemovedToldAndSortedAnew) {
     EXPECT_THAT(store->takeNotes(), ElementsAre(HasSubstr("block 0")));
 }
 
+// Which may be of use to the program that wrote it, as in a folder that is shared.
+TEST_F(StepStores, WhatAnotherVersionWroteStaysUntilItIsWrittenOver) {
+    (void)maker()->keep(0);
+    const fs::path path = store->pathOf(origin());
+    const std::string whole = tests::readBytes(path);
+    std::string bytes = whole;
+    bytes[8] = 2;  // the version
+    tests::writeBytes(path, bytes);
+    for (int i = 0; i < 2; ++i) expectField(*maker()->make(0), 100);
+    EXPECT_TRUE(tests::readBytes(path) == bytes);
+    EXPECT_THAT(store->takeNotes(), ElementsAre(HasSubstr("another version of the program")));
+    EXPECT_EQ(store->list().size(), 1u) << "may be cleared";
+    EXPECT_EQ(maker()->keep(0), StepMaker::Kept::Written);
+    EXPECT_TRUE(tests::readBytes(path) == whole);
+}
+
 // Blocks of before are never joined with what the source is by now.
 TEST_F(StepStores, WhatIsDamagedWhileItsSourceChangedIsToldInsteadOfShown) {
     (void)maker()->keep(0);
@@ -62,13 +93,18 @@ TEST_F(StepStores, WhatIsDamagedWhileItsSourceChangedIsToldInsteadOfShown) {
 
 TEST_F(StepStores, AFolderThatCannotBeIsToldOnceAndTheProgramGoesOn) {
     tests::writeBytes(folder / "steps", "a file");
-    const auto one = maker();
-    const auto step = one->make(0);
-    one->writeOne([](double) { return true; });
-    EXPECT_THAT(store->takeNotes(), ElementsAre(HasSubstr("not kept")));
-    const auto again = one->make(0);
-    EXPECT_FALSE(one->hasUnwritten());
-    expectField(*again, 100);
+    // The other is there, and nobody makes a file in it.
+    for (const fs::path& where : {folder / "steps", fs::path("/proc/self")}) {
+        const auto in =
+            std::make_shared<StepStore>(where, StoreKind::Cache, StepStore::kNoBudget, kAtOnce);
+        const auto one = maker(in);
+        const auto step = one->make(0);
+        one->writeOne([](double) { return true; });
+        EXPECT_THAT(in->takeNotes(), ElementsAre(HasSubstr("not kept")));
+        const auto again = one->make(0);
+        EXPECT_FALSE(one->hasUnwritten());
+        expectField(*again, 100);
+    }
 }
 
 TEST_F(StepStores, AFolderThatCannotBeListedIsNotEmpty) {
@@ -124,25 +160,35 @@ TEST_F(StepStores, AFullDiskLeavesNothing) {
 
 // Killed at any moment, a writer leaves the old file or the new one, and what it left is removed by
 // the next.
-TEST_F(StepStores, AWriterThatIsKilledLeavesTheOldOrTheNew) {
+TEST_F(KilledWriters, LeaveTheOldOrTheNew) {
     std::mt19937_64 random(1);
-    const auto begin = std::chrono::steady_clock::now();
-    (void)maker()->keep(0);
-    const auto whole = std::chrono::steady_clock::now() - begin;
+    using Clock = std::chrono::steady_clock;
+    // From its start to its end, of those that came to it: moments are drawn from twice as long.
+    std::optional<Clock::duration> lasts;
+    int finished = 0, early = 0, within = 0;
     for (int i = 0; i < tests::rounds(500); ++i) {
         const int m = 20 + i;
         nrrdOf(file, m);
+        const auto begin = Clock::now();
         const pid_t child = ::fork();
         if (child == 0) {
             (void)maker()->keep(0);
             ::_exit(0);
         }
-        std::this_thread::sleep_for(whole * static_cast<double>(random() % 1000) / 500);
-        ::kill(child, SIGKILL);
-        ::waitpid(child, nullptr, 0);
+        int status = 0;
+        if (lasts) {
+            std::this_thread::sleep_for(*lasts * static_cast<double>(random() % 1000) / 500);
+            ::kill(child, SIGKILL);
+        }
+        ::waitpid(child, &status, 0);
+        const bool ended = WIFEXITED(status);
+        if (ended && !lasts) lasts = Clock::now() - begin;
+        (ended ? finished : leftOne(child) ? within : early) += 1;
         expectField(*maker()->make(0), m);
         EXPECT_THAT(store->takeNotes(), Each(HasSubstr("it has changed since it was sorted")));
     }
+    EXPECT_GT(finished, 0);
+    EXPECT_GT(within, 0) << "while it wrote; " << early << " before or between";
     const auto next = std::make_shared<StepStore>(folder / "steps", StoreKind::Cache,
                                                   StepStore::kNoBudget, kAtOnce);
     nrrdOf(file, 10);

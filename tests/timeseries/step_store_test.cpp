@@ -77,6 +77,19 @@ TEST_F(StepStores, ASourceReplacedAtEqualSizeAndTimeIsSortedAnew) {
     expectField(*step, 70);
 }
 
+// As by a copy that was interrupted.
+TEST_F(StepStores, ASourceThatWasCutShortIsNotTakenForWhole) {
+    const StepOrigin of = origin();
+    const auto opened = maker();
+    ASSERT_EQ(opened->keep(0), StepMaker::Kept::Written);
+    ASSERT_TRUE(store->find(of));
+    fs::resize_file(file, fs::file_size(file) - 400);
+    EXPECT_FALSE(store->find(of));
+    const auto isTold = testing::ThrowsMessage<FileError>(HasSubstr("field.nrrd: "));
+    EXPECT_THAT([&] { (void)opened->make(0); }, isTold);
+    EXPECT_THAT([&] { (void)maker()->make(0); }, isTold);
+}
+
 TEST_F(StepStores, ASourceThatIsGoneIsNotFound) {
     (void)maker()->keep(0);
     const StepOrigin gone = origin();

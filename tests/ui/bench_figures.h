@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/ui/shot.h"
+
 namespace ui {
 
 using Clock = std::chrono::steady_clock;
@@ -19,6 +21,13 @@ inline void tell(const char* what, std::vector<double> milliseconds) {
     std::ranges::sort(milliseconds);
     fmt::print("{:<48} {:>4} times  median {:7.1f} ms  longest {:7.1f} ms\n", what,
                milliseconds.size(), milliseconds[milliseconds.size() / 2], milliseconds.back());
+}
+
+// Splats are of a colour, axes and their numbers are not.
+inline bool isColored(const Shot::Pixel& pixel) {
+    constexpr int kGrey = 40;
+    const auto [least, most] = std::ranges::minmax(pixel);
+    return most - least > kGrey;
 }
 
 // In [0, 1).

@@ -139,15 +139,6 @@ void runTurningAll(const ui::Screen& screen, const std::filesystem::path& home, 
     std::filesystem::remove(preferences);
 }
 
-// Splats are of a colour, axes and their numbers are not.
-bool hasSplats(const ui::Shot& shot) {
-    constexpr int kGrey = 40;
-    return std::ranges::any_of(shot.pixels, [](const ui::Shot::Pixel& pixel) {
-        const auto [least, most] = std::ranges::minmax(pixel);
-        return most - least > kGrey;
-    });
-}
-
 // From the program's start to splats in its window.
 double opening(const ui::Screen& screen, const std::filesystem::path& home,
                const std::vector<std::string>& arguments,
@@ -155,7 +146,8 @@ double opening(const ui::Screen& screen, const std::filesystem::path& home,
     const Clock::time_point begin = Clock::now();
     ui::Driver desk(screen, home, arguments, {}, program);
     const app::panels::Rect at = ui::placesOf(desk.size(), false).clear;
-    ui::waitUntil("splats are seen", [&] { return hasSplats(desk.shot(at)); });
+    ui::waitUntil("splats are seen",
+                  [&] { return std::ranges::any_of(desk.shot(at).pixels, ui::isColored); });
     return Milliseconds(Clock::now() - begin).count();
 }
 void runOpening(const ui::Screen& screen, const std::filesystem::path& home, const char* what,

@@ -21,6 +21,11 @@ struct DamagedStepError : StepFileError {
     using StepFileError::StepFileError;
 };
 
+// One that is as it should be for another version of the program, or on another machine.
+struct OtherStepError : DamagedStepError {
+    using DamagedStepError::DamagedStepError;
+};
+
 // Every member is safe to call from any thread.
 class ByteSource {
  public:

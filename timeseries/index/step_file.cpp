@@ -10,6 +10,7 @@
 #include "timeseries/index/id_codec.h"
 #include "timeseries/index/ordered_key.h"
 #include "timeseries/index/pair_sort.h"
+#include "timeseries/index/step_blocks.h"
 #include "timeseries/index/step_header.h"
 
 namespace timeseries {
@@ -68,11 +69,11 @@ StepHeader StepFile::readHeader() const {
         throw DamagedStepError(
             fmt::format("{}: expected an index of a time step, found another file", name()));
     if (header.endian != kEndianMark)
-        throw DamagedStepError(
+        throw OtherStepError(
             fmt::format("{} was written on a machine of the other byte order", name()));
     if (header.version != kStepVersion)
-        throw DamagedStepError(fmt::format("{} is of version {} of the index, expected {}", name(),
-                                           header.version, kStepVersion));
+        throw OtherStepError(fmt::format("{} is of version {} of the index, expected {}", name(),
+                                         header.version, kStepVersion));
     if (header.sum != sumOfBytes(std::span(page).first(offsetof(StepHeader, sum))))
         damaged("its header does not match its checksum");
     for (std::size_t i = sizeof(StepHeader); i < page.size(); ++i)
@@ -222,13 +223,45 @@ std::uint64_t StepFile::below(std::size_t index, std::uint64_t key) const {
 }
 
 void StepFile::check() const {
-    withType(type_, [&]<typename T>(T) {
-        std::vector<T> values(kStepBlock);
-        std::vector<std::uint32_t> gridIndex(kStepBlock);
-        for (std::size_t b = 0; b < blocks_.size(); ++b)
-            read<T>(b, std::span(values).first(blocks_[b].count),
-                    std::span(gridIndex).first(blocks_[b].count));
-    });
+    withType(type_, [&]<typename T>(T) { checkPoints<T>(); });
+}
+
+template <typename T>
+void StepFile::checkPoints() const {
+    std::vector<bool> met(std::size_t{size_[0]} * size_[1] * size_[2]);
+    std::vector<T> values(kStepBlock);
+    std::vector<std::uint32_t> gridIndex(kStepBlock);
+    const auto take = [&](std::size_t b) {
+        read<T>(b, std::span(values).first(blocks_[b].count),
+                std::span(gridIndex).first(blocks_[b].count));
+    };
+    Run finite{0, 0};  // infinities lie at the ends
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        take(b);
+        for (std::uint32_t i = 0; i < blocks_[b].count; ++i) {
+            if (met[gridIndex[i]])
+                damaged(fmt::format("point {} stands in its list twice", gridIndex[i]));
+            met[gridIndex[i]] = true;
+            if (!std::isfinite(static_cast<double>(values[i]))) continue;
+            if (finite.count++ == 0) finite.first = b * kStepBlock + i;
+        }
+    }
+    std::size_t taken = blocks_.size() - 1;
+    const auto numberAt = [&](std::uint64_t rank) {
+        if (const std::size_t b = rank / kStepBlock; b != taken) take(taken = b);
+        return numberOf(values[rank % kStepBlock]);
+    };
+    const std::uint64_t last = statistics_.points - 1;
+    bool same = numberAt(0) == statistics_.min && numberAt(last) == statistics_.max;
+    if (finite.count > 0)
+        same = same && numberAt(finite.first) == statistics_.finiteMin &&
+               numberAt(finite.first + finite.count - 1) == statistics_.finiteMax;
+    else
+        same = same && std::isnan(toDouble(statistics_.finiteMin));
+    if (!same) damaged("its least and greatest values are not those of its list");
+    const std::vector<std::uint64_t> ranks = quantileRanks(finite, quantiles_.size());
+    if (!std::ranges::equal(ranks, quantiles_, {}, [&](auto r) { return toDouble(numberAt(r)); }))
+        damaged("its quantiles are not those of its list");
 }
 
 #define ISOCHRON_TYPE(T) \

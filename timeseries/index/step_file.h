@@ -61,7 +61,8 @@ class StepFile {
     void read(std::size_t block, std::span<T> values, std::span<std::uint32_t> gridIndex) const;
     // How many of a block's keys are below this one.
     std::uint64_t below(std::size_t block, std::uint64_t key) const;
-    // Reads all of it.
+    // Reads all of it: whether each point is there at most once, and what is told of all of them is
+    // theirs. Takes a bit for each point of the grid.
     void check() const;
 
  private:
@@ -69,6 +70,8 @@ class StepFile {
     void checkSizes(const StepHeader& header) const;
     void readBlocks(const StepHeader& header);
     void readSummary(const StepHeader& header);
+    template <typename T>
+    void checkPoints() const;
     template <typename Key>
     void readKeys(const StepBlock& block, std::span<Key> keys) const;
     [[noreturn]] void damaged(const std::string& what) const;

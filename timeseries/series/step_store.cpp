@@ -126,6 +126,10 @@ std::shared_ptr<const StepFile> StepStore::look(const StepOrigin& origin, bool* 
         auto file = std::make_shared<const StepFile>(std::move(bytes));
         if (file->about() == stamp->text) return file;
         if (changed && filesOf(file->about()) != filesOf(stamp->text)) *changed = true;
+    } catch (const OtherStepError&) {  // which may be of use to whoever wrote it
+        note(folder_.string() +
+             ": steps that another version of the program sorted, or another kind of machine, are "
+             "sorted anew");
     } catch (const DamagedStepError& error) {
         discard(path, error.what());
     } catch (const StepFileError& error) {
@@ -156,6 +160,10 @@ StepStore::Wrote StepStore::write(const StepOrigin& origin, const OriginStamp& s
     removeLeftovers();
     const fs::path path = pathOf(origin);
     WholeFile file(path);
+    if (!file.isLocked())
+        note(folder_.string() +
+             ": its file system knows no locks, so that what interrupted programs leave there (" +
+             WholeFile::kSuffix + ") stays");
     if (!into(file) || !isStill()) return Wrote::Nothing;
     if (!room_.make(path, file.bytes())) return Wrote::NoRoom;
     file.finish();

@@ -71,9 +71,8 @@ WholeFile::WholeFile(fs::path path) : path_(std::move(path)) {
         file_ = ::open(unfinished_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0644);
         if (file_ < 0 && errno == EEXIST) continue;  // of an earlier program of this number
         if (file_ < 0) fail(path_, errno);
-        // Where the file system knows no locks, leftovers are never taken for such.
-        while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
-        }
+        do isLocked_ = ::flock(file_, LOCK_EX) == 0;
+        while (!isLocked_ && errno == EINTR);
         struct stat status {};
         if (::fstat(file_, &status) == 0 && status.st_nlink > 0) {
             there.keepMode(file_);

@@ -25,12 +25,15 @@ class WholeFile final : public ByteSink {
     std::uint64_t bytes() const;
     // On the disk, and there under its name, in that order.
     void finish();
+    // Else the file system knows no locks, and leftovers there are never taken for such.
+    bool isLocked() const { return isLocked_; }
     // Where it is until then: for a FilePart of another process.
     const std::filesystem::path& nameOfNow() const { return unfinished_; }
 
  private:
     std::filesystem::path path_, unfinished_;
     int file_ = -1;
+    bool isLocked_ = false;
 };
 
 // Written into a WholeFile by another process, while that has it. It knows no lock, which a

@@ -9,6 +9,7 @@
 #include "app/choices/camera.h"
 #include "app/picture/error_text.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 
 namespace app::headset {
 namespace seen_error {
@@ -109,8 +110,7 @@ TEST(SeenError, SaysWhereNobodyKnowsIt) {
     Seen seen = ramps("3:5", Model::Points);
     timeseries::Field field = seen.screen.sorted->field();
     field.categories = true;
-    seen.screen.sorted = std::make_shared<const timeseries::SortedStep>(
-        timeseries::SortedStep::build(std::move(field)));
+    seen.screen.sorted = std::make_shared<const timeseries::SortedStep>(tests::sorted(field));
     SeenError error;
     EXPECT_EQ(error.text({Model::Points}), "") << "nothing is seen yet";
     error.update(seen.screen, seen.view, Clock::now());

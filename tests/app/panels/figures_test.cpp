@@ -6,7 +6,9 @@
 #include "app/panels/figures.h"
 #include "app/panels/widgets.h"
 #include "tests/support/panels_desk.h"
+#include "tests/support/random_field.h"
 #include "tests/support/scripted_exploration.h"
+#include "tests/support/step_bytes.h"
 
 namespace app::panels {
 namespace {
@@ -40,6 +42,28 @@ TEST(Figures, AreOfThePictureAlone) {
     r.whole = false;
     r.lacksCells = true;
     EXPECT_THAT(figuresOf(p, desk.exploration.series()).back(), EndsWith("points stand for cells"));
+}
+
+TEST(Figures, SayWhetherTheStepIsFromTheIndex) {
+    const auto grid = tests::gridOf(std::array<std::size_t, 3>{2, 2, 2});
+    const timeseries::Field field{
+        .grid = grid, .values = std::vector<float>(8, 1), .missing = {}, .categories = false};
+    const auto built =
+        std::make_shared<const timeseries::SortedStep>(timeseries::SortedStep::build(field));
+    const auto stored = std::make_shared<const timeseries::SortedStep>(
+        timeseries::SortedStep::ofFile(tests::opened(tests::written(*built)), grid, false));
+    timeseries::Series series(2, 1 << 20);
+    (void)series.want(std::vector<std::size_t>{0, 1});
+    (void)series.loaded(0, built);
+    (void)series.loaded(1, stored);
+    Performance p{.frame = 5ms, .budget = 33ms};
+    p.report.counts = PointCounts{.layers = {8}, .selected = 8, .kept = 8, .total = 8};
+    for (const std::size_t step : {0u, 1u}) {
+        p.report.step = step;
+        EXPECT_EQ(figuresOf(p, &series).back().find("from the index") != std::string::npos,
+                  step == 1)
+            << step;
+    }
 }
 
 TEST(Figures, CountCellsWhereTheyAreDrawn) {
