@@ -89,6 +89,7 @@ struct OutputText {
     DrawnByText by;
     bool portable = false, progress = false;
     std::optional<double> within = {};
+    bool eachError = false;
     bool modelGiven = false;  // among the choices of the picture
 };
 
@@ -104,6 +105,10 @@ void addOutput(CLI::App& app, OutputText& into) {
         "Draw as little as keeps the error of optical depth within this (0.05: 5 %): all "
         "or some of the points, or cells, in the picture's pixels or in coarse ones. "
         "Without it all is drawn, as well as can be");
+    app.add_flag(
+        "--each-error", into.eachError,
+        "Of several pictures work out the error of each, and with --within what is drawn of "
+        "it: a second a picture, or less. Without it the one in the middle stands for all");
     addDrawnBy(app, into.by, {"any", "gl", "cpu", "exact"});
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr")->required();
 }
@@ -135,6 +140,7 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
     options.portable = text.portable;
     options.progress = text.progress;
     options.within = text.within;
+    options.errorOfEach = text.eachError;
     if (options.within && !(*options.within >= 1e-4 && *options.within <= 1))
         throw ChoiceError("--within takes an error of 0.0001 to 1");
     if (options.within && options.by.splatter == render::SplatterChoice::Exact)

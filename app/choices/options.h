@@ -52,6 +52,9 @@ struct RenderOptions : CommonOptions {
     bool progress = false;       // "picture 3 of 31" on stdout after each
     // Of optical depth, relative: what draws least of what keeps to it. None: all, the best.
     std::optional<double> within = {};
+    // Of several pictures each has its own error worked out, and what keeps to `within`; else the
+    // one in the middle's is that of all.
+    bool errorOfEach = false;
 };
 
 // One step, drawn in every way, or some, and held against the truth.

@@ -13,13 +13,12 @@
 #include "app/choices/user_files.h"
 #include "app/command/commands.h"
 #include "app/command/drawing_device.h"
+#include "app/command/frame_errors.h"
 #include "app/exploration/chosen_data.h"
 #include "app/files/dataset.h"
 #include "app/files/frame_files.h"
 #include "app/files/picture_files.h"
 #include "app/files/progress.h"
-#include "app/picture/depth_error.h"
-#include "app/picture/error_text.h"
 #include "app/picture/picture.h"
 #include "app/picture/range_label.h"
 #include "app/picture/still.h"
@@ -75,93 +74,6 @@ std::string whyFlat(const Explorer& e, const timeseries::Grid& grid,
     return flaw.empty() ? kNoVolumeOnGlobe : flaw;
 }
 
-DepthErrors errorsOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
-                     std::span<const Rung> rungs) {
-    const auto outline = render::PlacedPoints::outlineOf(step.grid(), e.scale, e.map);
-    return depthErrorsOf(onlyThis(e, frame.step, frame.tick), step, eyes(e, outline).front(),
-                         rungs);
-}
-
-std::string errorText(const RungError& error, Ordering ordering) {
-    const std::string depth = depthErrorText(error.depth);
-    if (depth.empty()) return "";
-    return depth + " of optical depth" + lightErrorText(error, ordering);
-}
-
-// What all pictures have said of their error: that of the one in the middle, or of the nearest to
-// it that shows something, since working it out takes longer than drawing a picture.
-struct MiddleError {
-    std::optional<double> depth;
-    std::string text;          // as it is said
-    std::string whyNone;       // where nobody knows it
-    std::filesystem::path of;  // that picture
-    Rung rung;                 // and what is drawn of it
-};
-// Of what draws least of these and keeps to `within`, or the truest.
-MiddleError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSource& source,
-                          std::span<const Rung> rungs, double within) {
-    constexpr std::size_t kAsked = 9;
-    const std::size_t middle = frames.size() / 2;
-    MiddleError error{{}, {}, {}, frames[middle].file, rungs.front()};
-    bool isNothing = false;
-    // Those before it and behind it in turn.
-    for (std::size_t k = 0, asked = 0; k <= 2 * middle + 1 && asked < kAsked; ++k) {
-        const std::size_t i = k % 2 == 1 ? middle - (k + 1) / 2 : middle + k / 2;
-        if (i >= frames.size()) continue;
-        ++asked;
-        const FrameAt frame = frames[i];
-        try {
-            const auto step = source.get(frame.step, frames.front().step);
-            if (!hasDepthError(*step)) {
-                error.whyNone = step->whyNoCells();
-                return error;
-            }
-            const DepthErrors errors = errorsOf(e, frame, *step, rungs);
-            const RungError* const drawn =
-                errors.rungs.empty() ? nullptr : errors.find(*errors.cheapest(within));
-            if (!drawn || std::isnan(drawn->depth)) {
-                isNothing = isNothing || drawn;
-                continue;
-            }
-            return {drawn->depth, errorText(*drawn, errors.ordering), {}, frame.file, drawn->rung};
-        } catch (const timeseries::FileError&) {
-            // What cannot be read is told when its turn comes, after the pictures before it.
-        }
-    }
-    const Model drawn = modelOf(e);
-    if (isNothing) error.whyNone = nothingSeenText(drawn);
-    if (isNothing && drawn == Model::Cells) error.whyNone += "; --model points draws the points";
-    return error;
-}
-
-// What is to be drawn, and its error: all by the chosen model, unless an error is asked for. Points
-// first: of a step whose cells are not wanted they are not made.
-MiddleError chosenError(const RenderOptions& options, const Explorer& e, const FrameFiles& frames,
-                        StepSource& source) {
-    const Rung all{modelOf(e)};
-    if (!options.within) return errorOfMiddle(e, frames, source, std::span(&all, 1), 1);
-    const bool coarsePoints = mayBeCoarse(e.footprint);
-    const auto by = [&](bool cells) {
-        const auto rungs = ladder({.cells = cells, .points = !cells, .coarsePoints = coarsePoints});
-        return errorOfMiddle(e, frames, source, rungs, *options.within);
-    };
-    MiddleError points = by(false);
-    if (!points.whyNone.empty()) points.rung = all;
-    const bool isEnough = points.depth && *points.depth <= *options.within;
-    if (isEnough || all.model == Model::Points || !points.whyNone.empty()) return points;
-    return by(true);
-}
-
-// One picture's is no other's: those of a series may differ by any factor.
-void tellError(const MiddleError& error, const FrameFiles& frames, Stereo stereo) {
-    const std::size_t others = frames.size() - 1;
-    if (!error.whyNone.empty()) return say("  error not known: {}\n", error.whyNone);
-    if (others == 0) return say("  {}\n", error.text);
-    say("  {} in {}; {} not known\n", error.text, filesOf(error.of, stereo).front().string(),
-        others == 1 ? "the other picture's is"
-                    : fmt::format("those of the other {} pictures are", others));
-}
-
 // Writes a picture while the next one is drawn.
 class WritingBeside {
  public:
@@ -185,8 +97,8 @@ class WritingBeside {
 // Draws and writes every frame. What stays from one frame to the next is the step and its place on
 // the GPU.
 Told drawFrames(const RenderOptions& options, const Explorer& e,
-                const timeseries::Variable& variable, const FrameFiles& frames,
-                const MiddleError& error, StepSource& source, render::FrameRenderer& renderer) {
+                const timeseries::Variable& variable, const FrameFiles& frames, FrameErrors& errors,
+                StepSource& source, render::FrameRenderer& renderer) {
     std::shared_ptr<const SortedStep> shown;
     std::optional<render::PlacedPoints> placed;
     std::optional<render::GlStep> onGpu;
@@ -212,6 +124,7 @@ Told drawFrames(const RenderOptions& options, const Explorer& e,
             placed.emplace(step->grid(), e.scale, e.map);
             onGpu.emplace(*step, *placed, onGpu ? onGpu->mesh() : nullptr);
         }
+        const FrameError& error = errors.of(frame, *step);
         const bool isOfAnother = frame.file != error.of;
         const auto nameOfFirst = [&](const std::filesystem::path& picture) {
             return filesOf(picture, e.stereo.mode).front().filename().string();
@@ -268,9 +181,9 @@ int renderHeadless(const RenderOptions& options) {
     render::FrameRenderer renderer(device.splatter());
     const FrameFiles frames(options.output, e, chosen.steps, dataset.stepCount());
     makeFoldersOf(frames.output());  // before the work: what cannot be made is told at once
-    const MiddleError error = chosenError(options, e, frames, *chosen.source);
+    FrameErrors errors(options, e, frames, *chosen.source);
     const auto [mixed, empty, byGl, flat, why] =
-        drawFrames(options, e, dataset.variable, frames, error, *chosen.source, renderer);
+        drawFrames(options, e, dataset.variable, frames, errors, *chosen.source, renderer);
     tellFiles(frames, dataset.variable);
     if (!dataset.series.recognised.empty()) say("  {}\n", dataset.series.recognised);
     for (const std::string& note : dataset.series.notes) say("  note: {}\n", note);
@@ -293,12 +206,7 @@ int renderHeadless(const RenderOptions& options) {
     if (options.byPointsAlone)
         say("  note: drawn by points, for --splatter exact draws no cells\n");
     tellStyle(e, dataset.variable);
-    const bool isSaid = empty > 0 || !whyNothing(e).empty();
-    if (!error.text.empty() || (!error.whyNone.empty() && !isSaid))
-        tellError(error, frames, e.stereo.mode);
-    if (options.within)
-        say("  drawn: {}{}\n", error.whyNone.empty() ? rungText(error.rung) : "all",
-            error.depth && *error.depth > *options.within ? ", the truest there is" : "");
+    errors.tell(empty > 0 || !whyNothing(e).empty());
     if (const auto* const sweep = sweepOf(e); sweep && !e.oneTick && sweep->frequency > 0)
         say("  {:.4g} pictures a second show it at {:g} cycles a second\n",
             static_cast<double>(frames.size()) * sweep->frequency, sweep->frequency);
