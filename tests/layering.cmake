@@ -93,6 +93,17 @@ beside(timeseries/readers "^timeseries/(grid|index|readers/text)/")
 rule(timeseries/readers/text "it comes before what stands beside the rooms"
      "^timeseries/readers/[^/]*$")
 
+# Where a point is, and what its cell is like, is PlacedPoints' alone; those that name axes ask for them, too.
+file(GLOB_RECURSE sources ${ROOT}/render/*.h ${ROOT}/render/*.cpp)
+list(FILTER sources EXCLUDE REGEX "^${ROOT}/render/(points|annotate)/")
+foreach(source ${sources})
+  file(STRINGS ${source} lines REGEX "axes\\(\\)")
+  if(lines)
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${ROOT} OUTPUT_VARIABLE name)
+    list(APPEND violations "${name} asks a grid for its axes: PlacedPoints tells where points are")
+  endif()
+endforeach()
+
 if(violations)
   list(REMOVE_DUPLICATES violations)
   list(JOIN violations "\n  " text)

@@ -49,8 +49,7 @@ FINEST = 128  # samples a cell at which VTK draws the fire's shell closed
 AZIMUTH, ELEVATION = 30, 20
 HALF_ANGLE = 15  # degrees, of app/choices/camera.cpp
 GROUND = "#0d1117"  # of isochron's pictures
-# Name: file, step, title, range, distance in half diagonals, colour, opacity of a cell's length, what is seen. The
-# ocean's levels are uneven: VTK's ray caster takes no such grid.
+# Name: file, step, title, range, distance in half diagonals, colour, opacity of a cell's length, what is seen.
 SCENES = {
     "fire_shell": (FIRE, 14, "Pool fire, 845 to 855 K", (845, 855), 2.4, "#ffb15c", 0.9,
                    "the shell is closed by isochron; by VTK it is full of holes, except where it is seen along its wall"),
@@ -372,6 +371,7 @@ VTK's opacity is a step at each end of the range, as sharp as its tables: 32,768
 the pictures show, is eight samples a cell; bytes are made floats for it (the tooth is paler without), and ranges of whole numbers
 reach half a step farther, as isochron takes them between points. The colour is added to VTK's opacity, of 8 bits, in linear light, as
 isochron blends it. VTK's volume ends at the outermost points, isochron's half a cell beyond them.
+The ocean of `tests/bench/TRADE.md` is not among them: its levels are uneven, and VTK's ray caster takes no such grid.
 
 {pictures}
 """

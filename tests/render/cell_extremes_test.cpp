@@ -9,10 +9,10 @@
 
 #include "datasets/analytic.h"
 #include "render/model/rays_across.h"
-#include "render/reference/cells_on_rays.h"
 #include "render/reference/interval_truth.h"
 #include "tests/bench/turbulence.h"
 #include "tests/support/cell_rays.h"
+#include "tests/support/cell_worlds.h"
 #include "tests/support/sampled_errors.h"
 #include "tests/support/sorted.h"
 
@@ -26,8 +26,21 @@ using timeseries::SortedStep;
 // The relative L2 of what is drawn of it in 600 x 600 pixels.
 double errorOf(const CellWorld& world) {
     const View view = tests::lookFrom({1.2, -2.6, 0.9}, {600, 600}, 0.36);
+    std::vector<double> drawn(std::size_t(view.size.x) * std::size_t(view.size.y));
+    for (std::size_t k = 0; k < world.scene.layers.size(); ++k) {
+        const double perWeight = opticalDepthPerWeight(world.scene.layers[k].style.opacity);
+        const std::vector<float> plane =
+            tests::drawn(world.scene, view, Channels::Weight, k, 2, tests::kAllCells, {},
+                         raysAcross(world.scene, view));
+        for (std::size_t i = 0; i < drawn.size(); ++i)
+            drawn[i] += perWeight * static_cast<double>(plane[i]);
+    }
     const DepthAt picture = [&](std::span<const glm::ivec2> at) {
-        return cellDepthAt(world.scene, view, at, raysAcross(world.scene, view));
+        std::vector<double> depth;
+        for (const glm::ivec2& pixel : at)
+            depth.push_back(
+                drawn[std::size_t(pixel.y) * std::size_t(view.size.x) + std::size_t(pixel.x)]);
+        return depth;
     };
     return tests::sampledError(world, view, picture, {.pixels = 96, .asked = 1024, .raysAcross = 5})
         .relativeL2;
