@@ -107,8 +107,9 @@ void addOutput(CLI::App& app, OutputText& into) {
         "Without it all is drawn, as well as can be");
     app.add_flag(
         "--each-error", into.eachError,
-        "Of several pictures work out the error of each, and with --within what is drawn of "
-        "it: a second a picture, or less. Without it the one in the middle stands for all");
+        "Of several pictures work out the error of each, which mostly takes longer than to "
+        "draw it, and with --within what is drawn of it. Without it the one in the middle "
+        "stands for all");
     addDrawnBy(app, into.by, {"any", "gl", "cpu", "exact"});
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr")->required();
 }
@@ -170,8 +171,9 @@ void addIndex(CLI::App& app, IndexText& into) {
         ->allow_extra_args(false);
     app.add_option("--step", into.steps,
                    "A step counted from 0, A:B, A:B:S for every S-th, or all (the default)");
-    app.add_option("--jobs", into.jobs,
-                   "Steps that are sorted at a time, each in memory; 1 by default")
+    app.add_option(
+           "--jobs", into.jobs,
+           "Steps that are sorted at a time, each in memory; 1 by default. Not beside mpirun")
         ->check(wholeBetween(1, 64));
     app.add_flag("--beside", into.beside,
                  "Into a folder beside the files, isochron-index, instead of the cache");

@@ -116,7 +116,7 @@ const FrameError& FrameErrors::of(const FrameAt& frame, const SortedStep& step) 
 }
 
 void FrameErrors::tell(bool saysNothing) const {
-    if (errors_.size() > 1) return tellEach();
+    if (errors_.size() > 1) return tellEach(saysNothing);
     const FrameError& error = errors_.front();
     if (!error.text.empty() || (!error.whyNone.empty() && !saysNothing)) tellMiddle();
     if (options_.within)
@@ -130,37 +130,57 @@ void FrameErrors::tellMiddle() const {
     const std::size_t others = frames_.size() - 1;
     if (!error.whyNone.empty()) return say("  error not known: {}\n", error.whyNone);
     if (others == 0) return say("  {}\n", error.text);
-    say("  {} in {}; {} not known: --each-error works them out\n", error.text,
-        fileOf(error.of, explorer_),
-        others == 1 ? "the other picture's is"
-                    : fmt::format("those of the other {} pictures are", others));
+    say("  {} in {}; {}\n", error.text, fileOf(error.of, explorer_),
+        others == 1
+            ? "the other picture's is not known: --each-error works it out"
+            : fmt::format("those of the other {} pictures are not known: --each-error works "
+                          "them out",
+                          others));
 }
 
-void FrameErrors::tellEach() const {
-    const auto less = [](const FrameError& a, const FrameError& b) { return a.depth < b.depth; };
-    const auto [least, most] = std::ranges::minmax_element(errors_, less);  // without one first
-    if (!most->depth) return say("  error not known in any: {}\n", most->whyNone);
-    const auto known =
-        std::ranges::count_if(errors_, [](const auto& e) { return e.depth.has_value(); });
-    say("  {} in {}, the most of {} pictures", most->text, fileOf(most->of, explorer_),
-        errors_.size());
-    if (known == std::ssize(errors_))
-        say("; {} in {}, the least\n", depthErrorText(*least->depth), fileOf(least->of, explorer_));
-    else
-        say("; not known in {}\n", std::ssize(errors_) - known);
-    if (!options_.within) return;
-    std::vector<Rung> told;
+void FrameErrors::tellEach(bool saysNothing) const {
+    std::vector<const FrameError*> known;
+    std::string why;  // of those that are not
     for (const FrameError& error : errors_) {
-        if (std::ranges::count(told, error.rung) > 0) continue;
-        told.push_back(error.rung);
-        say("  drawn: {} in {} of them\n", rungText(error.rung),
-            std::ranges::count(errors_, error.rung, &FrameError::rung));
+        if (error.depth) known.push_back(&error);
+        if (!error.depth && why.empty()) why = error.whyNone;
     }
-    if (*most->depth > *options_.within)
-        say("  of {} the truest there is has more than {:g}\n",
-            std::ranges::count_if(
-                errors_, [&](const auto& e) { return e.depth && *e.depth > *options_.within; }),
-            *options_.within);
+    const std::size_t unknown = errors_.size() - known.size();
+    if (known.empty()) {
+        if (!why.empty() && !saysNothing) say("  error not known in any: {}\n", why);
+    } else {
+        const auto [least, most] = std::ranges::minmax_element(
+            known, {}, [](const FrameError* error) { return *error->depth; });
+        say("  {} in {}, the most of {} pictures; {} in {}, the least{}\n", (*most)->text,
+            fileOf((*most)->of, explorer_), errors_.size(), depthErrorText(*(*least)->depth),
+            fileOf((*least)->of, explorer_),
+            unknown == 0 ? ""
+                         : fmt::format("; not known in {}{}", unknown,
+                                       why.empty() ? "" : fmt::format(" ({})", why)));
+    }
+    if (options_.within) tellRungs();
+}
+
+// How many pictures are drawn on each rung, in the order of their first; where nobody knows their
+// errors, whole.
+void FrameErrors::tellRungs() const {
+    std::vector<std::pair<std::string, std::size_t>> rungs;
+    std::size_t truest = 0;
+    for (const FrameError& error : errors_) {
+        const std::string text = error.whyNone.empty() ? rungText(error.rung) : "all";
+        const auto found =
+            std::ranges::find(rungs, text, &std::pair<std::string, std::size_t>::first);
+        if (found == rungs.end())
+            rungs.emplace_back(text, 1);
+        else
+            ++found->second;
+        truest += error.depth && *error.depth > *options_.within;
+    }
+    std::string text;
+    for (const auto& [rung, count] : rungs)
+        text += fmt::format("{}{} in {}", text.empty() ? "" : "; ", rung, count);
+    say("  drawn: {} of the pictures{}\n", text,
+        truest == 0 ? "" : fmt::format("; of {} the truest there is", truest));
 }
 
 }  // namespace app

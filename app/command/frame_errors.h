@@ -37,7 +37,8 @@ class FrameErrors {
 
  private:
     void tellMiddle() const;
-    void tellEach() const;
+    void tellEach(bool saysNothing) const;
+    void tellRungs() const;
 
     const RenderOptions& options_;
     const Explorer& explorer_;

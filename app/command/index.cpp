@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <new>
 
 #include "app/command/commands.h"
 #include "app/command/index_work.h"
@@ -29,6 +30,9 @@ int check(const IndexOptions& options) {
                 withCommas(step.statistics().points));
         } catch (const timeseries::StepFileError& error) {
             sayTo(stderr, "isochron: {}\n", error.what());
+            code = 1;
+        } catch (const std::bad_alloc&) {
+            sayTo(stderr, "isochron: {}: there is not enough memory to read it\n", file.string());
             code = 1;
         }
     }

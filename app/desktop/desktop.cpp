@@ -90,11 +90,17 @@ void Desktop::frame(std::chrono::nanoseconds dt) {
     gui_.setScale(panels::scaleWithRoom(glm::vec2(size), wanted));
     interact(dt);
     const Clock::time_point begin = Clock::now();
-    exploration_.reading([&] { drawPicture(); });
-    gui_.draw();
-    window_.swap();
-    picture_.took(Clock::now() - begin);
-    checkDriver(exploration_);
+    bool changed = false;
+    exploration_.reading([&] { changed = drawPicture(); });
+    changed = gui_.finishFrame() || changed;
+    drew_ = window_.takeExposed() || changed;
+    if (drew_) {
+        picture_.show(size, layout().picture);
+        gui_.draw();
+        window_.swap();
+        picture_.took(Clock::now() - begin);
+        checkDriver(exploration_);
+    }
     title();
 }
 
@@ -132,18 +138,20 @@ void Desktop::serve(const panels::Requests& requests) {
         interface_.takeReading(picture_.read(*requests.probe, shown), requests.ruler);
 }
 
-void Desktop::drawPicture() {
-    const glm::ivec2 window = window_.framebufferSize();
-    const panels::Layout layout =
-        panels::layoutOf(glm::vec2(window), gui_.theme().scale, interface_.choices().sideWidth);
-    const panels::Rect& place = layout.picture;
+panels::Layout Desktop::layout() {
+    return panels::layoutOf(glm::vec2(window_.framebufferSize()), gui_.theme().scale,
+                            interface_.choices().sideWidth);
+}
+
+bool Desktop::drawPicture() {
     const Explorer& e = exploration_.explorer();
-    const glm::ivec2 size = PictureView::eyeSize(place, e.stereo.mode);
+    const glm::ivec2 size = PictureView::eyeSize(layout().picture, e.stereo.mode);
     if (size != e.size) exploration_.resize(size);
     const auto shown = exploration_.shown();
-    picture_.draw(shown ? &*shown : nullptr, window, place, exploration_.playback().playing,
-                  ImGui::IsAnyMouseDown(), interface_.choices());
-    panels::drawFigures(gui_.theme(), layout, picture_.performance(), exploration_.series());
+    const bool changed = picture_.draw(shown ? &*shown : nullptr, exploration_.playback().playing,
+                                       ImGui::IsAnyMouseDown(), interface_.choices());
+    panels::drawFigures(gui_.theme(), layout(), picture_.performance(), exploration_.series());
+    return changed;
 }
 
 void Desktop::title() {
@@ -177,6 +185,9 @@ void Desktop::sleep() {
     within(fileActions_.untilKept());
     if (fileActions_.exporting() || asked_.valid()) within(100ms);
     if (ImGui::GetIO().WantTextInput) within(300ms);  // its cursor blinks
+    // A swap waits for the screen; where there was none nothing would.
+    constexpr std::chrono::nanoseconds kWithoutSwap = 2ms;
+    if (!drew_ && atMost && window_.events().empty()) atMost = std::max(*atMost, kWithoutSwap);
     const Clock::time_point before = Clock::now();
     window_.wait(atMost);
     // Woken before the time was over: by an event or by what was loaded.

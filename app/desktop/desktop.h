@@ -35,7 +35,8 @@ class Desktop {
     void frame(std::chrono::nanoseconds dt);
     void interact(std::chrono::nanoseconds dt);
     void serve(const panels::Requests& requests);
-    void drawPicture();
+    panels::Layout layout();
+    bool drawPicture();  // whether it is another
     void title();
     void sleep();
     void askForHeadset();
@@ -51,6 +52,7 @@ class Desktop {
     Clock::time_point last_ = Clock::now();
     // Frames until the loop may sleep: the interface shows what the exploration was a frame ago.
     int restless_ = 2;
+    bool drew_ = true;  // in the last frame: one that looks like the one before is not drawn
     // While a runtime is asked: it may take its time.
     std::future<std::variant<xr::Session::Offer, xr::NoHeadset>> asked_;
     AtConnectionsEnd atConnectionsEnd_{[this] { fileActions_.rescue(); }};

@@ -3,9 +3,11 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "app/panels/field_text.h"
 
@@ -75,6 +77,26 @@ Cursor cursorOf(ImGuiMouseCursor cursor) {
         default:
             return Cursor::Arrow;
     }
+}
+
+// One number for all that is drawn; the font's texture alone is no part of it, and changes with the
+// size of the text.
+std::uint64_t looksOf(const ImDrawData& data) {
+    std::uint64_t looks = 0;
+    const auto take = [&](const auto* first, int count) {
+        looks = XXH3_64bits_withSeed(first, static_cast<std::size_t>(count) * sizeof *first, looks);
+    };
+    take(&data.DisplaySize, 1);
+    for (int i = 0; i < data.CmdListsCount; ++i) {
+        const ImDrawList& list = *data.CmdLists[i];
+        take(list.VtxBuffer.Data, list.VtxBuffer.Size);
+        take(list.IdxBuffer.Data, list.IdxBuffer.Size);
+        for (const ImDrawCmd& command : list.CmdBuffer) {
+            take(&command.ClipRect, 1);
+            take(&command.ElemCount, 1);
+        }
+    }
+    return looks;
 }
 
 // Hands events to ImGui until one would hide what an earlier one of this frame says.
@@ -184,10 +206,13 @@ FrameInput Gui::beginFrame(std::chrono::nanoseconds dt) {
 
 void Gui::endFrame() { ImGui::EndFrame(); }
 
-void Gui::draw() {
+bool Gui::finishFrame() {
     window_.setCursor(cursorOf(ImGui::GetMouseCursor()));
     ImGui::Render();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    const std::uint64_t looks = looksOf(*ImGui::GetDrawData());
+    return std::exchange(looks_, looks) != looks;
 }
+
+void Gui::draw() const { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
 
 }  // namespace app::desktop

@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,7 +37,9 @@ class Gui {
     // Takes what it can of the window's events and begins a frame.
     FrameInput beginFrame(std::chrono::nanoseconds dt);
     void endFrame();  // one that is not drawn
-    void draw();      // ends the frame and draws it over what stands in the window
+    // Ends a frame that may be drawn; whether it looks otherwise than the one before that did.
+    bool finishFrame();
+    void draw() const;  // what was finished, over what stands in the window
 
  private:
     const char* pasted();  // as ImGui asks for the clipboard; null: there is no text
@@ -44,6 +47,7 @@ class Gui {
     Window& window_;
     panels::Theme theme_;
     std::string pasted_;
+    std::uint64_t looks_ = 0;  // of the frame that was finished last
 };
 
 }  // namespace app::desktop

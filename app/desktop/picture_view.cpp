@@ -57,19 +57,26 @@ bool PictureView::isCurrent(const Shown& shown) const {
            content_->explorer == drawnOf(shown.explorer);
 }
 
-void PictureView::draw(const Shown* shown, glm::ivec2 window, const panels::Rect& place,
-                       bool playing, bool held, const panels::Choices& choices) {
-    if (shown == nullptr) return render::showGround(window, kGroundColor);
+bool PictureView::draw(const Shown* shown, bool playing, bool held,
+                       const panels::Choices& choices) {
+    const bool was = std::exchange(isThere_, shown != nullptr);
+    if (!isThere_) return was;
     playing_ = playing;
     partsCame_ = std::max(partsCame_ - 1, 0);
     const bool current = isCurrent(*shown);
     rest_.frame(!current, held, Clock::now());
     const bool resting = !playing && rest_.is(Clock::now());
     const bool arriving = current && report_.uploaded < 1;
-    if (!current || arriving || (!isDone() && resting && !canvas_.waitsForGradients()))
+    if (!current || arriving || (!isDone() && resting && !canvas_.waitsForGradients())) {
         redraw(*shown, resting && !arriving, choices);
-    else if (resting && waitsForError())
-        tellError();
+        return true;
+    }
+    if (resting && waitsForError()) tellError();
+    return !was;
+}
+
+void PictureView::show(glm::ivec2 window, const panels::Rect& place) const {
+    if (!isThere_) return render::showGround(window, kGroundColor);
     kept_->show(window, {0, window.y - static_cast<int>(place.max.y)}, kGroundColor);
 }
 

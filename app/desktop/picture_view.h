@@ -28,11 +28,12 @@ class PictureView {
     DrawingCosts costs() const { return governor_.costs(); }
     void beginFrom(const DrawingCosts& learnt) { governor_.beginFrom(learnt); }
 
-    // Puts the picture into the window's framebuffer, with ground around it. `shown`: null while
-    // there is nothing. `playing`: it will change again at once. `held`: a mouse button is, with
-    // which a hand may go on to change it.
-    void draw(const Shown* shown, glm::ivec2 window, const panels::Rect& place, bool playing,
-              bool held, const panels::Choices& choices);
+    // Draws what of the picture is to be drawn now, if anything is; whether show() has something
+    // else to show by then. `shown`: null while there is nothing. `playing`: it will change again
+    // at once. `held`: a mouse button is, with which a hand may go on to change it.
+    bool draw(const Shown* shown, bool playing, bool held, const panels::Choices& choices);
+    // Puts the picture into the window's framebuffer, with ground around it.
+    void show(glm::ivec2 window, const panels::Rect& place) const;
     // When it is to be drawn again although nothing changes; none when it is whole.
     std::optional<std::chrono::nanoseconds> untilNextDraw() const;
 
@@ -100,6 +101,7 @@ class PictureView {
     std::vector<render::View> eyes_;
     glm::ivec2 grid_{1};  // how many eyes' pictures stand beside and above each other
     Rest rest_;
+    bool isThere_ = false;  // anything to show
     bool playing_ = false;  // at the last draw(): a refinement stands still
     double readNs_ = 10;    // of a read, a splat drawn, as the last one took
     bool timed_ = true;     // what was drawn last has its time

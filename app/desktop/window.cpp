@@ -11,6 +11,7 @@
 #include <limits>
 #include <mutex>
 #include <stdexcept>
+#include <utility>
 
 #include "app/desktop/x_errors.h"
 
@@ -123,6 +124,7 @@ struct Window::State {
     Cursor cursor = Cursor::Arrow;
     std::string title;
     std::deque<Event> events;
+    bool exposed = false;
 
     State(glm::ivec2 size, const std::string& name, Platform platform)
         : library(platform), window(createWindow(size, name)), title(name) {
@@ -163,6 +165,7 @@ void Window::State::listen() {
     glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
         of(w).events.push_back(FocusChanged{focused == GLFW_TRUE});
     });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).exposed = true; });
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
         of(w).events.push_back(Dropped{{paths, paths + count}});
     });
@@ -218,6 +221,7 @@ void Window::wait(std::optional<std::chrono::nanoseconds> atMost) {
     throwIfGone();
 }
 
+bool Window::takeExposed() { return std::exchange(state_->exposed, false); }
 std::deque<Event>& Window::events() { return state_->events; }
 bool Window::shouldClose() const { return glfwWindowShouldClose(state_->window) == GLFW_TRUE; }
 void Window::close() { glfwSetWindowShouldClose(state_->window, GLFW_TRUE); }

@@ -78,6 +78,9 @@ class Window {
     void setClipboard(const std::string& text);
     const char* clipboard() const;
     void swap();
+    // Whether what it showed was lost, as where another window stood before it, since the last time
+    // that this was asked.
+    bool takeExposed();
     // A swap waits for the screen, as it does at first, or not.
     void waitForScreen(bool waits);
 

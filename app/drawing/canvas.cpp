@@ -44,7 +44,8 @@ struct Canvas::State {
     GlSteps steps;
     CellMaker cells;
     std::optional<Screen> screen;
-    Rung rung{Model::Points};         // of what was shown last
+    Rung rung{Model::Points};         // of what was shown last,
+    bool gaveWay = false;             // and whether beyond the pace
     render::DepthOrder order;         // of pictures at rest
     std::optional<Resting> resting;   // uses the renderer alone
     bool lacksOnlyGradients = false;  // what was refined last
@@ -78,6 +79,7 @@ struct Canvas::State {
     struct Moving {
         Rung rung;
         render::Scene scene;
+        bool gaveWay = false;  // beyond the pace
     };
     Moving moving(const render::Scene& whole, std::span<const render::View> eyes,
                   const CanvasLimits& limits) const;
@@ -138,28 +140,31 @@ Canvas::State::Moving Canvas::State::moving(const render::Scene& whole,
                                             const CanvasLimits& limits) const {
     const bool hasCells = whole.cells != nullptr;
     const bool hasPoints = !hasCells || isThere(*screen->held, byPoints(whole));
-    const auto truestWithin = [&](const CanvasLimits& budgets, const std::vector<Rung>& rungs) {
-        return truestThatFits(rungs, rung, limits.errors, [&](const Rung& on, double share) {
-            return keepsTo(budgets, sceneOn(on, whole), render::coarser(eyes, on.across), share);
-        });
-    };
     std::vector<Rung> rungs = ladder({.cells = hasCells && !listsForLong(whole),
                                       .points = hasPoints,
                                       .coarse = limits.mayBeCoarse,
                                       .coarsePoints = mayBeCoarse(whole.footprint),
                                       .mostStride = render::kMaxStride});
     if (limits.most) rungs = from(*limits.most, std::move(rungs));
-    Rung on = limits.rung ? *limits.rung : truestWithin(limits, rungs);
-    if (!limits.rung && limits.slower && showsNothing(on, hasCells, limits.errors)) {
+    const auto truestWithin = [&](const CanvasLimits& budgets, double ofThem) {
+        return truestThatFits(rungs, rung, limits.errors, [&](const Rung& on, double share) {
+            return keepsTo(budgets, sceneOn(on, whole), render::coarser(eyes, on.across),
+                           ofThem * share);
+        });
+    };
+    // Back to the pace, too, with room to spare.
+    Rung on = limits.rung ? *limits.rung : truestWithin(limits, gaveWay ? kToClimb : 1);
+    const bool gives = !limits.rung && limits.slower && showsNothing(on, hasCells, limits.errors);
+    if (gives) {
         CanvasLimits slower = limits;
         slower.splats = limits.slower->splats;
         slower.cells = limits.slower->cells;
-        on = truestWithin(slower, rungs);
+        on = truestWithin(slower, 1);
     }
     if (!hasCells) on.model = Model::Points;
     if (on.model == Model::Points && !mayBeCoarse(whole.footprint)) on.across = 1;
     if (on.model == Model::Points && !hasPoints) on = {};
-    return {on, sceneOn(on, whole)};
+    return {on, sceneOn(on, whole), gives};
 }
 
 void Canvas::State::choose(const Explorer& choices) {
@@ -269,10 +274,11 @@ CanvasReport Canvas::draw(const Shown& shown, std::span<const render::View> eyes
         legend = state_->telling.legend(*screen, whole, !moving);
         report.told = state_->telling.isOf(*screen, whole);
     }
-    const auto [rung, drawn] =
+    const auto [rung, drawn, gaveWay] =
         moving ? state_->moving(whole, eyes, limits) : State::Moving{rungOf(whole), whole};
     if (!drawn.cells) std::erase_if(legend.notes, isOfCells);
     state_->rung = rung;
+    state_->gaveWay = gaveWay;
     state_->tell(report, drawn);
 
     state_->timer.begin();

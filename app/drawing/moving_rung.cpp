@@ -23,15 +23,12 @@ render::Scene sceneOn(const Rung& rung, const render::Scene& whole) {
 
 bool showsNothing(const Rung& rung, bool ofCells, const DepthErrors* errors) {
     constexpr double kFarOff = 0.5;
-    if (errors) return errors->of(rung).value_or(0) > kFarOff;
+    if (const auto known = errors ? errors->of(rung) : std::nullopt) return *known > kFarOff;
     return ofCells && rung.model == Model::Points && rung.stride > 1;
 }
 
 Rung truestThatFits(std::span<const Rung> rungs, const Rung& last, const DepthErrors* errors,
                     const std::function<bool(const Rung&, double)>& fits) {
-    // Climbing wants room to spare: of a limit that swings about what a rung takes, the picture
-    // would change all the time.
-    constexpr double kToClimb = 0.8;
     std::optional<Rung> best;
     double least = std::numeric_limits<double>::infinity();
     for (const Rung& each : rungs) {

@@ -23,6 +23,10 @@ render::Scene sceneOn(const Rung& rung, const render::Scene& whole);
 // where errors are not known, has some of the points in place of cells.
 bool showsNothing(const Rung& rung, bool ofCells, const DepthErrors* errors);
 
+// Climbing wants room to spare: of a limit that swings about what a rung takes, the picture would
+// change all the time.
+constexpr double kToClimb = 0.8;
+
 // Of those that fit the truest, by what is known of errors; without errors the first. Where none
 // fits the last. `fits(rung, share)`: whether it keeps to this share of the limits; `last`: what
 // was drawn before.

@@ -136,9 +136,8 @@ void movingRows(PanelContext& context, Form& form) {
     if (context.choices.moving == Moving::Error) errorAllowed(context, form);
     if (context.choices.moving == Moving::Fixed) rungRows(context, form);
     constexpr std::array kNotes = {
-        "While the picture moves, it is as true as fits this pace, but slower, down to 20 a "
-        "second, "
-        "where that would show little of the field; at rest, whole.",
+        "While the picture moves, it is as true as fits this pace; where that would show little "
+        "of the field, slower, down to 20 a second; at rest, whole.",
         "While the picture moves, as little is drawn as keeps this error, once it is known, "
         "whatever a frame takes.",
         "While the picture moves, it is drawn this way, whatever a frame takes.",

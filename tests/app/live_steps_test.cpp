@@ -130,7 +130,11 @@ TEST(LiveSteps, WhatAWindowSortedIsOpenedTheNextTime) {
     for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i % 101);
     tests::writeBytes(
         file, "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 200 200 200\nencoding: raw\n\n" + bytes);
-    chooseStepCache((folder / "steps").string());
+    struct Cache {
+        explicit Cache(const std::filesystem::path& in) { chooseStepCache(in.string()); }
+        ~Cache() { chooseStepCache(""); }
+    };
+    const Cache cache(folder / "steps");
     std::this_thread::sleep_for(timeseries::StepStore::kSettled);
     const auto isStored = [&] {
         OpenDataset dataset = openDataset(std::vector{file}, "");
@@ -149,7 +153,6 @@ TEST(LiveSteps, WhatAWindowSortedIsOpenedTheNextTime) {
     };
     EXPECT_FALSE(isStored());
     EXPECT_TRUE(isStored());
-    chooseStepCache("");
 }
 
 TEST_F(LiveStepsDropping, FreesByAnotherThreadWhoeverLooksAtItLast) {

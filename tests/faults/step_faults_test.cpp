@@ -365,6 +365,8 @@ TEST_P(StepWriters, WheneverThePowerGoesTheFileIsTheOldOrTheNewOne) {
                 ASSERT_TRUE(left.contains(path.string()) || !isOneThere) << crash;
                 const std::string found =
                     left.contains(path.string()) ? left.at(path.string()) : "";
+                ASSERT_TRUE(isOneThere || !left.contains(path.string()) || found == after)
+                    << "empty after " << crash << " calls";
                 ASSERT_TRUE(found == before || found == after) << "after " << crash << " calls";
                 old += found == before;
                 anew += found == after;

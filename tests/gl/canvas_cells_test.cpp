@@ -202,6 +202,30 @@ TEST_F(CanvasOfNoise, APaceGivesWayWhereItWouldShowNothing) {
     }
 }
 
+TEST_F(CanvasOfNoise, ComingBackToAPaceWantsRoomToSpare) {
+    world_.explorer.model = Model::Cells;
+    draw(world_.shown());
+    DepthErrors errors;  // of all points a third, of fewer too much
+    for (const Rung& rung : ladder({}))
+        errors.rungs.push_back({.rung = rung,
+                                .depth = rung == Rung()                ? 0.01
+                                         : rung == Rung{Model::Points} ? 0.3
+                                                                       : 0.9});
+    const auto givesWay = [&](double splats) {
+        CanvasLimits limits{
+            .splats = static_cast<std::uint64_t>(splats), .cells = 1, .errors = &errors};
+        limits.slower = {100'000'000, 100'000'000};
+        draw(world_.shown(), limits, true);
+        return report_.cells.has_value();
+    };
+    double fits = 1e8;  // then the least that all points keep to
+    ASSERT_FALSE(givesWay(fits));
+    while (!givesWay(0.98 * fits)) fits *= 0.98;
+    EXPECT_TRUE(givesWay(1.05 * fits)) << "it has just given way";
+    EXPECT_FALSE(givesWay(1.4 * fits));
+    EXPECT_FALSE(givesWay(1.05 * fits)) << "and is there";
+}
+
 // Of a step of which no points were drawn before.
 TEST_F(CanvasOfNoise, PointsThatStandForCellsComeToTheGpu) {
     world_.explorer.model = Model::Cells;

@@ -334,7 +334,8 @@ TEST(StepFile, OfAnotherVersionOrByteOrderIsToldApart) {
     EXPECT_EQ(refusal(offsetof(StepHeader, version), kStepVersion), "opened");
     EXPECT_THAT(refusal(offsetof(StepHeader, version), kStepVersion + 1),
                 HasSubstr("bytes is of version 2 of the index, expected 1"));
-    EXPECT_THAT(refusal(offsetof(StepHeader, endian), 0x04030201),
+    EXPECT_THROW((void)refusal(offsetof(StepHeader, endian), 0x04030202), DamagedStepError);
+    EXPECT_THAT(refusal(offsetof(StepHeader, endian), kOtherEndianMark),
                 HasSubstr("bytes was written on a machine of the other byte order"));
 }
 

@@ -17,8 +17,10 @@ TEST_F(DeskMeetsAGlError, AndTellsItAndGoesOn) {
     desk.moveAway();
     const Shot before = desk.settled();
     standIn.glError(true);
+    desk.move(tabPlace(app::panels::sideLayout(at.window, 1), Tab::View));  // it lights up: a frame
     desk.sync();
     standIn.glError(false);
+    desk.moveAway();
     const Shot after = desk.settled();
     EXPECT_GT(differing(part(after, at.messages), part(before, at.messages)), 500u)
         << "a message is shown";

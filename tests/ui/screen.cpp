@@ -102,6 +102,18 @@ void Screen::setResource(const std::string& line) const {
     XSync(connection_, False);
 }
 
+void Screen::cover(glm::ivec2 at, glm::ivec2 size, const std::function<void()>& meanwhile) const {
+    const auto pixels = glm::uvec2(size);
+    const unsigned long white = WhitePixel(connection_, DefaultScreen(connection_));
+    const XWindow window =
+        XCreateSimpleWindow(connection_, root(), at.x, at.y, pixels.x, pixels.y, 0, 0, white);
+    XMapRaised(connection_, window);
+    XSync(connection_, False);
+    meanwhile();
+    XDestroyWindow(connection_, window);
+    XSync(connection_, False);
+}
+
 bool Screen::hasEvent(const std::function<bool(const _XEvent&)>& isIt) const {
     using IsIt = std::function<bool(const _XEvent&)>;
     const auto matches = [](Display*, XEvent* event, XPointer asked) -> Bool {

@@ -43,6 +43,8 @@ class Screen {
     std::string property(XWindow window, const char* name) const;
     // What programs that start later read of the user's desktop, "NAME: VALUE".
     void setResource(const std::string& line) const;
+    // While another program's window stands there, before all others.
+    void cover(glm::ivec2 at, glm::ivec2 size, const std::function<void()>& meanwhile) const;
     // Takes the first event that has come and for which `isIt` holds; false when there is none.
     bool hasEvent(const std::function<bool(const _XEvent&)>& isIt) const;
     // The window that a process has made; none yet.

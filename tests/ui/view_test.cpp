@@ -29,6 +29,15 @@ TEST_F(DeskView, TurnsMovesZoomsAndFits) {
     EXPECT_EQ(differing(picture(), first), 0u);
 }
 
+// Nobody keeps what was there.
+TEST_F(DeskView, IsWholeAgainWhereAnotherWindowStoodBeforeIt) {
+    const Shot before = picture();
+    screen().cover({200, 200}, {300, 200}, [&] {
+        desk_->waitFor("it stands there", [&] { return desk_->shot(at_.clear) != before; });
+    });
+    desk_->waitFor("all is seen again", [&] { return desk_->shot(at_.clear) == before; });
+}
+
 // Where a picture is most colourful, away from its right and lower edge: in the fire, for lines and
 // text are grey.
 glm::vec2 mostColorful(const Shot& shot, const app::panels::Rect& place) {

@@ -21,7 +21,7 @@ struct DamagedStepError : StepFileError {
     using StepFileError::StepFileError;
 };
 
-// One that is as it should be for another version of the program, or on another machine.
+// One that says it is of another version of the program, or of a machine of the other byte order.
 struct OtherStepError : DamagedStepError {
     using DamagedStepError::DamagedStepError;
 };

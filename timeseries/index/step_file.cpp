@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_set>
 
 #include "timeseries/grid/with_type.h"
 #include "timeseries/index/id_codec.h"
@@ -39,6 +40,27 @@ class Piece {
     std::unique_ptr<std::byte[]> at_;
 };
 
+// Which points of a grid a list has come to: a bit each, or where it has few of them, so that a
+// damaged grid asks for no more memory than the list does, their numbers.
+class PointsMet {
+ public:
+    PointsMet(std::uint64_t grid, std::uint64_t points) {
+        constexpr std::uint64_t kBitsOfNumber = 8 * sizeof(std::uint64_t);
+        if (grid / kBitsOfNumber <= points) bits_.resize(grid);
+    }
+    // False where it has been there before.
+    bool meet(std::uint32_t point) {
+        if (bits_.empty()) return few_.insert(point).second;
+        const bool isNew = !bits_[point];
+        bits_[point] = true;
+        return isNew;
+    }
+
+ private:
+    std::vector<bool> bits_;
+    std::unordered_set<std::uint32_t> few_;
+};
+
 // More than any block of so many points needs, so that a damaged list asks for no more memory.
 constexpr std::uint64_t kMostIdsBytes = 64 + 6 * kStepBlock, kMostKeysBytes = 64 + 9 * kStepBlock;
 
@@ -68,6 +90,8 @@ StepHeader StepFile::readHeader() const {
     if (header.magic != kStepMagic)
         throw DamagedStepError(
             fmt::format("{}: expected an index of a time step, found another file", name()));
+    if (header.endian != kEndianMark && header.endian != kOtherEndianMark)
+        damaged(fmt::format("it has no byte order {:#x}", header.endian));
     if (header.endian != kEndianMark)
         throw OtherStepError(
             fmt::format("{} was written on a machine of the other byte order", name()));
@@ -228,7 +252,7 @@ void StepFile::check() const {
 
 template <typename T>
 void StepFile::checkPoints() const {
-    std::vector<bool> met(std::size_t{size_[0]} * size_[1] * size_[2]);
+    PointsMet met(std::uint64_t{size_[0]} * size_[1] * size_[2], statistics_.points);
     std::vector<T> values(kStepBlock);
     std::vector<std::uint32_t> gridIndex(kStepBlock);
     const auto take = [&](std::size_t b) {
@@ -239,14 +263,13 @@ void StepFile::checkPoints() const {
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
         take(b);
         for (std::uint32_t i = 0; i < blocks_[b].count; ++i) {
-            if (met[gridIndex[i]])
+            if (!met.meet(gridIndex[i]))
                 damaged(fmt::format("point {} stands in its list twice", gridIndex[i]));
-            met[gridIndex[i]] = true;
             if (!std::isfinite(static_cast<double>(values[i]))) continue;
             if (finite.count++ == 0) finite.first = b * kStepBlock + i;
         }
     }
-    std::size_t taken = blocks_.size() - 1;
+    std::size_t taken = blocks_.size() - 1;  // is there yet
     const auto numberAt = [&](std::uint64_t rank) {
         if (const std::size_t b = rank / kStepBlock; b != taken) take(taken = b);
         return numberOf(values[rank % kStepBlock]);

@@ -62,7 +62,7 @@ class StepFile {
     // How many of a block's keys are below this one.
     std::uint64_t below(std::size_t block, std::uint64_t key) const;
     // Reads all of it: whether each point is there at most once, and what is told of all of them is
-    // theirs. Takes a bit for each point of the grid.
+    // theirs. Takes a bit for each point of the grid, or less.
     void check() const;
 
  private:

@@ -14,7 +14,7 @@ namespace timeseries {
 
 constexpr std::array<char, 8> kStepMagic{'i', 's', 'o', 's', 't', 'e', 'p', '\n'};
 constexpr std::uint32_t kStepVersion = 1;
-constexpr std::uint32_t kEndianMark = 0x01020304;
+constexpr std::uint32_t kEndianMark = 0x01020304, kOtherEndianMark = 0x04030201;
 constexpr std::size_t kHeaderBytes = 4096;  // on disk; beyond those of StepHeader all 0
 
 // What every sum in the file is of its bytes.

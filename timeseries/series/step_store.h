@@ -58,7 +58,8 @@ class StepStore {
     // None when a file of it is not there.
     std::optional<OriginStamp> stampOf(const StepOrigin& origin) const;
     // Null where there is none, or it was made of what the origin no longer is, whose files may
-    // have `changed` since; what is damaged is removed and told.
+    // have `changed` since; what is damaged is removed and told, what another version wrote told
+    // alone.
     std::shared_ptr<const StepFile> find(const StepOrigin& origin, bool* changed = nullptr);
     // As find(), but it does not count as use.
     std::shared_ptr<const StepFile> look(const StepOrigin& origin, bool* changed = nullptr);
