@@ -32,9 +32,9 @@ if(MPI AND READELF)
   endif()
 endif()
 
-# A simulation is compiled as the README says.
+# A simulation is compiled as the README says; not with a library that wants a sanitizer's.
 find_program(MPICC mpicc)
-if(MPI AND MPICC)
+if(MPI AND MPICC AND NOT SANITIZE)
   file(READ ${README} text)
   string(REGEX MATCH "\n    mpicc (wave.c [^\n]*)" line "${text}")
   if(NOT line)

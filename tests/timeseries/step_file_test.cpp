@@ -296,7 +296,8 @@ TEST(StepFile, IsReadWholeToSeeWhetherItTellsTheTruth) {
         return std::string("believed");
     };
     EXPECT_EQ(refusal([](auto&) {}), "believed");
-    const auto blocks = tests::opened(whole)->blocks();
+    const auto file = tests::opened(whole);
+    const auto blocks = file->blocks();
     ASSERT_GT(blocks.size(), 2u);
     StepHeader header;
     std::memcpy(&header, whole.data(), sizeof header);
