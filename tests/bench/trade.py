@@ -45,8 +45,8 @@ MEANING = {
              "in all: a mean over them misleads. Cells cost twenty times as much here, since there are many of them and each is small on the screen: look around by points, "
              "read off by cells.",
     "aneurism": "Walls of vessels, a sixth of a step thick, in a volume that is mostly empty. By points a ray is wrong by three fifths, and walls are speckled; cells keep them whole, and are worth "
-                "their 35 ms where a diameter is to be seen. Coarse pixels are half as wrong as points are.",
-    "hurricane": "Wind of 40 m/s is a sheet about the eye. By points it is a cloud that hints at it, half wrong on a ray; by cells it is one sheet, in 2 ms, and nothing is gained "
+                "their 30 to 35 ms where a diameter is to be seen. Coarse pixels are half as wrong as points are.",
+    "hurricane": "Wind of 40 m/s is a sheet about the eye. By points it is a cloud that hints at it, half wrong on a ray; by cells it is one sheet, in 2 to 3 ms, and nothing is gained "
                  "by leaving anything out.",
     "ocean": "Levels lie 10 m apart above and 100 below, so a point stands for a slab that is ten times as thick below, and is drawn as one: slower than cells, which take the layer of 10 °C "
              "between the levels as it is. There is no reason for points here but that they are what was measured.",
