@@ -105,11 +105,8 @@ void addOutput(CLI::App& app, OutputText& into) {
         "Draw as little as keeps the error of optical depth within this (0.05: 5 %): all "
         "or some of the points, or cells, in the picture's pixels or in coarse ones. "
         "Without it all is drawn, as well as can be");
-    app.add_flag(
-        "--each-error", into.eachError,
-        "Of several pictures work out the error of each, which mostly takes longer than to "
-        "draw it, and with --within what is drawn of it. Without it the one in the middle "
-        "stands for all");
+    app.add_flag("--each-error", into.eachError,
+                 "Of several pictures each has its own error worked out, not the middle one's");
     addDrawnBy(app, into.by, {"any", "gl", "cpu", "exact"});
     app.add_option("-o,--output", into.output, "OUT.png or OUT.exr")->required();
 }
@@ -171,9 +168,7 @@ void addIndex(CLI::App& app, IndexText& into) {
         ->allow_extra_args(false);
     app.add_option("--step", into.steps,
                    "A step counted from 0, A:B, A:B:S for every S-th, or all (the default)");
-    app.add_option(
-           "--jobs", into.jobs,
-           "Steps that are sorted at a time, each in memory; 1 by default. Not beside mpirun")
+    app.add_option("--jobs", into.jobs, "Steps sorted at a time, 1 by default; not by mpirun")
         ->check(wholeBetween(1, 64));
     app.add_flag("--beside", into.beside,
                  "Into a folder beside the files, isochron-index, instead of the cache");

@@ -146,21 +146,11 @@ Canvas::State::Moving Canvas::State::moving(const render::Scene& whole,
                                       .coarsePoints = mayBeCoarse(whole.footprint),
                                       .mostStride = render::kMaxStride});
     if (limits.most) rungs = from(*limits.most, std::move(rungs));
-    const auto truestWithin = [&](const CanvasLimits& budgets, double ofThem) {
-        return truestThatFits(rungs, rung, limits.errors, [&](const Rung& on, double share) {
-            return keepsTo(budgets, sceneOn(on, whole), render::coarser(eyes, on.across),
-                           ofThem * share);
-        });
-    };
-    // Back to the pace, too, with room to spare.
-    Rung on = limits.rung ? *limits.rung : truestWithin(limits, gaveWay ? kToClimb : 1);
-    const bool gives = !limits.rung && limits.slower && showsNothing(on, hasCells, limits.errors);
-    if (gives) {
-        CanvasLimits slower = limits;
-        slower.splats = limits.slower->splats;
-        slower.cells = limits.slower->cells;
-        on = truestWithin(slower, 1);
-    }
+    auto [on, gives] = rungInTime(rungs, {rung, gaveWay}, hasCells, limits,
+                                  [&](const CanvasLimits& budgets, const Rung& each, double share) {
+                                      return keepsTo(budgets, sceneOn(each, whole),
+                                                     render::coarser(eyes, each.across), share);
+                                  });
     if (!hasCells) on.model = Model::Points;
     if (on.model == Model::Points && !mayBeCoarse(whole.footprint)) on.across = 1;
     if (on.model == Model::Points && !hasPoints) on = {};

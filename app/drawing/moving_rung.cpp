@@ -4,6 +4,13 @@
 #include <optional>
 
 namespace app {
+namespace {
+
+// Climbing wants room to spare: of a limit that swings about what a rung takes, the picture would
+// change all the time.
+constexpr double kToClimb = 0.8;
+
+}  // namespace
 
 render::Scene byPoints(render::Scene scene) {
     if (!scene.cells) return scene;
@@ -40,6 +47,23 @@ Rung truestThatFits(std::span<const Rung> rungs, const Rung& last, const DepthEr
         if (!errors) break;
     }
     return best.value_or(rungs.empty() ? Rung() : rungs.back());
+}
+
+PacedRung rungInTime(std::span<const Rung> rungs, const PacedRung& last, bool ofCells,
+                     const CanvasLimits& limits,
+                     const std::function<bool(const CanvasLimits&, const Rung&, double)>& fits) {
+    if (limits.rung) return {*limits.rung};
+    const auto truestWithin = [&](const CanvasLimits& budgets, double ofThem) {
+        return truestThatFits(rungs, last.rung, limits.errors, [&](const Rung& on, double share) {
+            return fits(budgets, on, ofThem * share);
+        });
+    };
+    const Rung on = truestWithin(limits, last.gaveWay ? kToClimb : 1);  // back to the pace, too
+    if (!limits.slower || !showsNothing(on, ofCells, limits.errors)) return {on};
+    CanvasLimits slower = limits;
+    slower.splats = limits.slower->splats;
+    slower.cells = limits.slower->cells;
+    return {truestWithin(slower, 1), true};
 }
 
 }  // namespace app

@@ -42,6 +42,23 @@ function(expectMembers json)
   endif()
 endfunction()
 
+# expectSame(EXPECTED FOUND [COUNT]): the folder FOUND has EXPECTED's files, so many, to the byte.
+function(expectSame expected found)
+  file(GLOB names RELATIVE ${WORK}/${expected} ${WORK}/${expected}/*)
+  file(GLOB there RELATIVE ${WORK}/${found} ${WORK}/${found}/*)
+  list(LENGTH names count)
+  if(count EQUAL 0 OR NOT there STREQUAL names OR (ARGC GREATER 2 AND NOT count EQUAL "${ARGV2}"))
+    fail("expected in ${found} what is in ${expected}: ${names}; found ${there}")
+  endif()
+  foreach(name IN LISTS names)
+    execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${WORK}/${expected}/${name} ${WORK}/${found}/${name}
+                    RESULT_VARIABLE differ)
+    if(differ)
+      fail("${found}/${name} is not ${expected}/${name}")
+    endif()
+  endforeach()
+endfunction()
+
 # Where the script's own arguments begin (after --) and end.
 set(begin 0)
 foreach(i RANGE ${CMAKE_ARGC})
