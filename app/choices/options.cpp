@@ -69,7 +69,7 @@ void addDrawnBy(CLI::App& app, DrawnByText& into, std::vector<std::string> splat
     const bool exact = std::ranges::find(splatters, "exact") != splatters.end();
     app.add_option("--splatter", into.splatter,
                    fmt::format("Who sums splats: any (default: gl on a GPU, else cpu), {}",
-                               exact ? "gl, cpu, or exact: in double, slowly" : "gl or cpu"))
+                               exact ? "gl, cpu, or exact: the truth, slowly" : "gl or cpu"))
         ->check(oneOf(std::move(splatters)));
 }
 
@@ -90,7 +90,6 @@ struct OutputText {
     bool portable = false, progress = false;
     std::optional<double> within = {};
     bool eachError = false;
-    bool modelGiven = false;  // among the choices of the picture
 };
 
 void addOutput(CLI::App& app, OutputText& into) {
@@ -143,13 +142,8 @@ RenderOptions renderOptions(Explorer explorer, const OutputText& text) {
         throw ChoiceError("--within takes an error of 0.0001 to 1");
     if (options.within && options.by.splatter == render::SplatterChoice::Exact)
         throw ChoiceError("--splatter exact draws all there is: leave --within out");
-    if (options.by.splatter == render::SplatterChoice::Exact) {
-        if (text.modelGiven && modelOf(options.explorer) == Model::Cells)
-            throw ChoiceError(
-                "--splatter exact draws points: --model cells is drawn by the others");
-        options.byPointsAlone = modelOf(options.explorer) == Model::Cells;
-        options.explorer = allBy(Model::Points, std::move(options.explorer));
-    }
+    if (options.by.splatter == render::SplatterChoice::Exact && mixesModels(options.explorer))
+        throw ChoiceError("--splatter exact draws all layers by cells, or all by points");
     checkOutput(options);
     return options;
 }
@@ -375,7 +369,6 @@ Command parse(std::span<const char* const> arguments) {
             return with(CacheOptions{
                 {},
                 cacheText == "clear" ? CacheOptions::Action::Clear : CacheOptions::Action::List});
-        outputText.modelGiven = renderApp->count("--model") > 0;
         if (*renderApp) return with(renderOptions(renderText.explorer(*renderApp), outputText));
         if (*measureApp)
             return with(measureOptions(measuredText.explorer(*measureApp), measureText));

@@ -47,9 +47,8 @@ struct RenderOptions : CommonOptions {
     std::filesystem::path output;
     bool opticalDepth = false, splatCount = false;  // further EXR channels
     DrawnBy by;
-    bool byPointsAlone = false;  // what draws has no cells, which nobody has left out
-    bool portable = false;       // pictures keep no absolute path
-    bool progress = false;       // "picture 3 of 31" on stdout after each
+    bool portable = false;  // pictures keep no absolute path
+    bool progress = false;  // "picture 3 of 31" on stdout after each
     // Of optical depth, relative: what draws least of what keeps to it. None: all, the best.
     std::optional<double> within = {};
     // Of several pictures each has its own error worked out, and what keeps to `within`; else the

@@ -14,7 +14,7 @@ DrawingDevice::DrawingDevice(const DrawnBy& asked) : by_(asked.splatter) {
 }
 
 std::string DrawingDevice::program() const {
-    if (by_ == Choice::Exact) return "the program in double on 1 thread";
+    if (by_ == Choice::Exact) return "the program in double";
     const unsigned threads = render::sharingThreads();
     return fmt::format("the program on {} thread{}", threads, threads == 1 ? "" : "s");
 }

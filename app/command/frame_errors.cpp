@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string_view>
 #include <utility>
 
 #include "app/choices/camera.h"
@@ -18,6 +19,15 @@ namespace {
 
 using timeseries::SortedStep;
 
+// Of what is drawn as the truth itself.
+constexpr std::string_view kTruth =
+    "drawn as the field is between its points, exact along each of 16 rays a pixel";
+
+bool drawsTruth(const RenderOptions& options, const Explorer& explorer) {
+    return options.by.splatter == render::SplatterChoice::Exact &&
+           modelOf(explorer) == Model::Cells;
+}
+
 std::string errorText(const RungError& error, Ordering ordering) {
     const std::string depth = depthErrorText(error.depth);
     if (depth.empty()) return "";
@@ -27,10 +37,15 @@ std::string errorText(const RungError& error, Ordering ordering) {
 // Of what draws least of these and keeps to `within`, or the truest; without a text and a reason
 // where there is nothing to say.
 FrameError errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& step,
-                   std::span<const Rung> rungs, double within) {
+                   std::span<const Rung> rungs, double within, bool isTruth) {
     FrameError error{.of = frame.file, .rung = rungs.front()};
     if (!hasDepthError(step)) {
         error.whyNone = step.whyNoCells();
+        return error;
+    }
+    if (isTruth) {
+        error.depth = 0;
+        error.text = kTruth;
         return error;
     }
     const auto outline = render::PlacedPoints::outlineOf(step.grid(), e.scale, e.map);
@@ -53,7 +68,7 @@ FrameError errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& st
 using ErrorOf = std::function<FrameError(std::span<const Rung>, double within)>;
 
 FrameError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSource& source,
-                         std::span<const Rung> rungs, double within) {
+                         std::span<const Rung> rungs, double within, bool isTruth) {
     constexpr std::size_t kAsked = 9;
     const std::size_t middle = frames.size() / 2;
     FrameError none{.of = frames[middle].file, .rung = rungs.front()};
@@ -65,7 +80,7 @@ FrameError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSource
         const FrameAt frame = frames[i];
         try {
             const auto step = source.get(frame.step, frames.front().step);
-            FrameError error = errorOf(e, frame, *step, rungs, within);
+            FrameError error = errorOf(e, frame, *step, rungs, within, isTruth);
             if (error.depth || !hasDepthError(*step)) return error;
             if (!error.whyNone.empty()) none.whyNone = std::move(error.whyNone);
         } catch (const timeseries::FileError&) {
@@ -100,17 +115,20 @@ std::string fileOf(const std::filesystem::path& picture, const Explorer& e) {
 
 FrameErrors::FrameErrors(const RenderOptions& options, const Explorer& explorer,
                          const FrameFiles& frames, StepSource& source)
-    : options_(options), explorer_(explorer), frames_(frames) {
+    : options_(options),
+      explorer_(explorer),
+      frames_(frames),
+      isTruth_(drawsTruth(options, explorer)) {
     if (options.errorOfEach) return;
     errors_.push_back(chosenError(options, explorer, [&](auto rungs, double within) {
-        return errorOfMiddle(explorer, frames, source, rungs, within);
+        return errorOfMiddle(explorer, frames, source, rungs, within, isTruth_);
     }));
 }
 
 const FrameError& FrameErrors::of(const FrameAt& frame, const SortedStep& step) {
     if (!options_.errorOfEach) return errors_.front();
     errors_.push_back(chosenError(options_, explorer_, [&](auto rungs, double within) {
-        return errorOf(explorer_, frame, step, rungs, within);
+        return errorOf(explorer_, frame, step, rungs, within, isTruth_);
     }));
     return errors_.back();
 }
@@ -129,7 +147,7 @@ void FrameErrors::tellMiddle() const {
     const FrameError& error = errors_.front();
     const std::size_t others = frames_.size() - 1;
     if (!error.whyNone.empty()) return say("  error not known: {}\n", error.whyNone);
-    if (others == 0) return say("  {}\n", error.text);
+    if (others == 0 || isTruth_) return say("  {}\n", error.text);
     say("  {} in {}; {}\n", error.text, fileOf(error.of, explorer_),
         others == 1
             ? "the other picture's is not known: --each-error works it out"

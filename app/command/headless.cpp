@@ -203,8 +203,6 @@ int renderHeadless(const RenderOptions& options) {
         say("  note: {}; --timer-steps says how many\n", leftOut);
     if (flat > 0) say("  note: what is drawn lies flat{}: {}\n", inSome(flat), why);
     for (const std::string& idle : idleChoices(options.explorer)) say("  note: {}\n", idle);
-    if (options.byPointsAlone)
-        say("  note: drawn by points, for --splatter exact draws no cells\n");
     tellStyle(e, dataset.variable);
     errors.tell(empty > 0 || !whyNothing(e).empty());
     if (const auto* const sweep = sweepOf(e); sweep && !e.oneTick && sweep->frequency > 0)

@@ -131,7 +131,7 @@ struct Canvas::State {
     void tell(CanvasReport& report, const render::Scene& scene) const;
     // Whether what is to be drawn by cells is drawn by points.
     bool lacksCells(const render::Scene& drawn) const {
-        return !drawn.cells && needsCells(screen->explorer, *screen->sorted, drawn.placed);
+        return !drawn.cells && needsCells(screen->explorer, *screen->sorted);
     }
 };
 

@@ -17,7 +17,7 @@ void CellMaker::want(const Screen& screen) {
     const auto& step = screen.sorted;
     const render::PlacedPoints& placed = screen.held->placed;
     shared_->wanted = step.get();
-    if (!needsCells(screen.explorer, *step, placed)) return;
+    if (!needsCells(screen.explorer, *step)) return;
     const auto needed = cellsNeeded(screen.explorer, step->type());
     if (!step->cellsIfMade(needed)) {
         const auto [values, cells] = CellIndex::bytesOf(step->grid(), step->type());

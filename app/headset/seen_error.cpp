@@ -22,7 +22,7 @@ Explorer selectionOf(Explorer e) {
 // Cells are looked for by another thread first.
 bool isReady(const Screen& screen) {
     if (!hasDepthError(*screen.sorted)) return false;
-    return !needsCells(screen.explorer, *screen.sorted, screen.held->placed) ||
+    return !needsCells(screen.explorer, *screen.sorted) ||
            screen.sorted->cellsIfMade(cellsNeeded(screen.explorer, screen.sorted->type()));
 }
 

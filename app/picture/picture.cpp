@@ -7,7 +7,6 @@
 #include "app/picture/resolved.h"
 #include "render/frame/mean_depth.h"
 #include "render/image/color.h"
-#include "render/splat/mixed_splatter.h"
 
 namespace app {
 namespace {
@@ -64,12 +63,11 @@ bool isLit(const Explorer& e, const timeseries::Grid& grid) {
 }  // namespace
 
 bool needsGradients(const Explorer& e, const SortedStep& step, const render::PlacedPoints& placed) {
-    return placed.isMesh() && isLit(e, step.grid()) && needsCells(e, step, placed);
+    return placed.isMesh() && isLit(e, step.grid()) && needsCells(e, step);
 }
 
-bool needsCells(const Explorer& e, const SortedStep& step, const render::PlacedPoints& placed) {
-    return modelOf(e) == Model::Cells && step.canHaveCells() && !step.cellsAreGivenUp() &&
-           (!mixesModels(e) || render::MixedSum::canSum(placed, e.footprint));
+bool needsCells(const Explorer& e, const SortedStep& step) {
+    return modelOf(e) == Model::Cells && step.canHaveCells() && !step.cellsAreGivenUp();
 }
 
 render::Scene makeScene(const Explorer& e, const SortedStep& step,
@@ -81,7 +79,7 @@ render::Scene makeScene(const Explorer& e, const SortedStep& step,
                         .order = e.order,
                         .clip = {}};
     if (e.clip) scene.clip = render::indexBox(step.grid(), e.clip->lo, e.clip->hi);
-    if (needsCells(e, step, placed)) {
+    if (needsCells(e, step)) {
         const auto needed = cellsNeeded(e, step.type());
         scene.cells = await == Await::Cells ? step.cells(needed) : step.cellsIfMade(needed);
     }

@@ -26,10 +26,8 @@ Explorer onlyThis(const Explorer& explorer, std::size_t stepIndex, std::int64_t 
 std::vector<timeseries::Interval<double>> cellsNeeded(const Explorer& explorer,
                                                       timeseries::ValueType type);
 
-// Whether some of the picture is drawn by cells. Splats that are cut at the domain's faces have no
-// place in order among cells: where a layer is drawn by those, all are drawn by points.
-bool needsCells(const Explorer& explorer, const timeseries::SortedStep& step,
-                const render::PlacedPoints& placed);
+// Whether some of the picture is drawn by cells.
+bool needsCells(const Explorer& explorer, const timeseries::SortedStep& step);
 
 // And whether light falls on them by the gradients of a mesh's points.
 bool needsGradients(const Explorer& explorer, const timeseries::SortedStep& step,

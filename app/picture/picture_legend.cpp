@@ -18,7 +18,6 @@
 #include "app/picture/resolved.h"
 #include "render/annotate/stretch_text.h"
 #include "render/annotate/ticks.h"
-#include "render/splat/mixed_splatter.h"
 #include "timeseries/grid/mesh.h"
 #include "timeseries/grid/solid_cells.h"
 
@@ -254,9 +253,6 @@ render::Legend makeLegend(const Explorer& e, const timeseries::Variable& variabl
         legend.notes.push_back(fmt::format("drawn by points: {}", scene.step.whyNoCells()));
     } else if (modelOf(e) == Model::Cells && scene.step.cellsAreGivenUp()) {
         legend.notes.emplace_back("drawn by points: there is no memory for so many cells");
-    } else if (mixesModels(e) && !render::MixedSum::canSum(scene.placed, e.footprint)) {
-        legend.notes.emplace_back(
-            "drawn by points: the splats of one layer have no order among another's cells here");
     }
     if (std::string beyond = beyondBox(scene.step.grid()); !beyond.empty())
         legend.notes.push_back(std::move(beyond));

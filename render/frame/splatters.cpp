@@ -19,8 +19,7 @@ bool isByGl(SplatterChoice choice) {
 }  // namespace
 
 Splatters::Splatters(SplatterChoice choice)
-    : pointsInProgram_(choice == SplatterChoice::Exact ? static_cast<Splatter&>(exact_)
-                                                       : processor_),
+    : inProgram_(choice == SplatterChoice::Exact ? static_cast<Splatter&>(exact_) : processor_),
       byGl_(isByGl(choice) && GlSplatter::canDraw()) {
     if (choice == SplatterChoice::Gl && !byGl_)
         throw std::runtime_error(
@@ -46,7 +45,7 @@ bool Splatters::sumsByGl(const Scene& scene) const {
 }
 
 Splatter& Splatters::of(const Scene& scene) {
-    if (!sumsByGl(scene)) return scene.cells ? processor_ : pointsInProgram_;
+    if (!sumsByGl(scene)) return inProgram_;
     if (scene.cells) return needGl().cells;
     return needGl().points;
 }

@@ -51,7 +51,7 @@ class Splatters {
     ProcessorSplatter processor_;
     ExactSplatter exact_;
     std::unique_ptr<Gl> gl_;
-    Splatter& pointsInProgram_;  // who sums them where GL does not
+    Splatter& inProgram_;  // who sums what GL does not
     bool byGl_;
     std::uint64_t mostCellBytes_ = 0, mostMeshBytes_ = 0;  // on the GPU, where that draws
 };

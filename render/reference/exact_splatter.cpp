@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "render/reference/cpu_splatter.h"
+#include "render/reference/exact_cells.h"
+#include "render/splat/cell_pieces.h"
 #include "render/splat/splat_source.h"
 
 namespace render {
@@ -84,12 +86,14 @@ class ExactFrame final : public SplatFrame {
  public:
     ExactFrame(const Scene& scene, DrawList list) : scene_(scene), list_(std::move(list)) {}
 
-    std::uint64_t splats(Channels, std::size_t layer) const override {
+    std::uint64_t splats(Channels channels, std::size_t layer) const override {
+        if (scene_.cells) return cellCount(scene_, channels, layer);
         if (const auto* sorted = std::get_if<Sorted>(&list_)) return sorted->point.size();
         return splatCount(scene_.layers[layer], scene_.stride);
     }
     std::unique_ptr<PlaneSum> begin(const View& view, Channels channels, std::size_t layer,
                                     Targets& targets) override {
+        if (scene_.cells) return exactCellPlane(scene_, view, channels, layer, targets);
         return std::make_unique<Plane>(scene_, list_, view, channels, layer, targets);
     }
 

@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "render/reference/light_on_ray.h"
 #include "render/reference/tets_light.h"
 #include "render/reference/tets_on_pixels.h"
 #include "render/reference/truth_per.h"
@@ -68,9 +67,9 @@ std::vector<Pixel> IntervalTruth::meanOfRays(const View& view, std::span<const g
                                              const Sum& sum) const {
     constexpr std::size_t kAtOnce = 64;
     const PixelRays rays = besideFaces(pixelRays(scene_.placed.inAxes(view)));
-    const auto rayAt = [&](const glm::dvec2& at) {
-        const glm::dvec3 along = rays.along(at - rays.centre);
-        return Ray{rays.eye, along, rays.near,
+    const auto rayAt = [&](const glm::ivec2& pixel, const glm::dvec2& place) {
+        const glm::dvec3 along = rays.along(glm::dvec2(pixel) + place - rays.centre);
+        return Ray{rays.eye, along, rays.near, opaque_.at(pixel),
                    glm::length(scene_.placed.worldFromAxes() * along) / scene_.placed.unitLength()};
     };
     std::vector<Pixel> means(pixels.size());
@@ -80,8 +79,7 @@ std::vector<Pixel> IntervalTruth::meanOfRays(const View& view, std::span<const g
         for (std::size_t first; (first = next.fetch_add(kAtOnce)) < pixels.size();)
             for (std::size_t p = first; p < std::min(first + kAtOnce, pixels.size()); ++p) {
                 Pixel all(0);
-                for (const glm::dvec2& place : places)
-                    all += sum(rayAt(glm::dvec2(pixels[p]) + place), work);
+                for (const glm::dvec2& place : places) all += sum(rayAt(pixels[p], place), work);
                 means[p] = all / static_cast<double>(places.size());
             }
     });
@@ -109,29 +107,38 @@ IntervalTruth::IntervalTruth(const Scene& scene, const timeseries::FieldSlab& sl
         });
 }
 
+template <typename Visit>
+void IntervalTruth::walk(const Ray& ray, const Visit& visit) const {
+    (*walk_)(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
+        return from < ray.far && visit(cell, from, std::min(to, ray.far));
+    });
+}
+
 double IntervalTruth::weight(const Ray& ray, std::size_t layer, WeightWork& work) const {
     std::vector<LinePart>& parts = work.parts;
     const IntervalCells& inLayer = layers_[layer];
     const CellWalk& cells = walk_->cells();
     if (truthPer(scene_, scene_.layers[layer]) == OpacityPer::Crossing) {
         double passed = 0;
-        (*walk_)(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
-            if (inLayer.kind(cell, work.lately) == Kind::Nothing) return;
+        walk(ray, [&](const glm::uvec3& cell, double from, double to) {
+            if (inLayer.kind(cell, work.lately) == Kind::Nothing) return true;
             passed += inLayer.passage(cell, cells.inCell(cell, ray.eye + from * ray.along),
                                       cells.inCell(cell, ray.eye + to * ray.along),
                                       (to - from) * ray.weight, work.lately);
+            return true;
         });
         return passed;
     }
     double length = 0;
-    (*walk_)(ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
+    walk(ray, [&](const glm::uvec3& cell, double from, double to) {
         const Kind kind = inLayer.kind(cell, work.lately);
         if (kind == Kind::Whole) length += to - from;
-        if (kind != Kind::Part) return;
+        if (kind != Kind::Part) return true;
         parts.clear();
         inLayer.addParts(cell, cells.inCell(cell, ray.eye + from * ray.along),
                          cells.inCell(cell, ray.eye + to * ray.along), parts, work.lately);
         for (const LinePart& part : parts) length += (to - from) * (part.to - part.from);
+        return true;
     });
     return length * ray.weight;
 }
@@ -143,13 +150,14 @@ std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer) c
 std::vector<double> IntervalTruth::weight(const View& view, std::size_t layer,
                                           std::span<const glm::ivec2> pixels,
                                           std::span<const glm::dvec2> places) const {
-    if (!walk_) return meshWeight(scene_, slab_.values, view, layer, pixels, places, threads_);
+    if (!walk_)
+        return meshWeight(scene_, slab_.values, view, layer, pixels, places, threads_, opaque_);
     return meanOfRays<double, WeightWork>(
         view, pixels, places, [&](const Ray& ray, auto& work) { return weight(ray, layer, work); });
 }
 
-std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
-    if (!walk_) return meshLight(scene_, slab_.values, view, places_, threads_);
+std::vector<glm::dvec4> IntervalTruth::light(const View& view, LightOnRay::Of what) const {
+    if (!walk_) return meshLight(scene_, slab_.values, view, places_, threads_, what, opaque_);
     const auto collect = [&](const Through& way, LightWork& work) {
         work.ofLayers.clear();
         work.ends.clear();
@@ -221,33 +229,32 @@ std::vector<glm::dvec4> IntervalTruth::light(const View& view) const {
     return meanOfRays<glm::dvec4, LightWork>(
         view, allPixels(view.size), places_, [&](const Ray& ray, LightWork& work) {
             if (!work.seen) {
-                work.seen.emplace(scene_.layers);
+                work.seen.emplace(scene_.layers, what);
                 work.lately.resize(layers_.size());
             }
             LightOnRay& seen = *work.seen;
             seen.begin();
-            (*walk_)(
-                ray.eye, ray.along, ray.near, [&](const glm::uvec3& cell, double from, double to) {
-                    const auto isIn = [&](std::size_t k) {
-                        return layers_[k].kind(cell, work.lately[k]) != Kind::Nothing;
-                    };
-                    std::size_t in = 0;
-                    while (in < layers_.size() && !isIn(in)) ++in;
-                    if (in == layers_.size()) return true;
-                    const Through way{cell, cells.inCell(cell, ray.eye + from * ray.along),
-                                      cells.inCell(cell, ray.eye + to * ray.along), ray.along,
-                                      (to - from) * ray.weight};
-                    collect(way, work);
-                    if (slopes) {
-                        const bool isEven = layers_[in].fieldIn(cell, work.lately[in]).isEven();
-                        work.slopes =
-                            isEven ? std::array<glm::dvec3, 8>{} : slopes->gradients(cell, scale);
-                    }
-                    for (std::size_t i = 1; i < work.ends.size(); ++i)
-                        if (work.ends[i] > work.ends[i - 1])
-                            pass(way, {work.ends[i - 1], work.ends[i]}, work);
-                    return !seen.isOpaque();
-                });
+            walk(ray, [&](const glm::uvec3& cell, double from, double to) {
+                const auto isIn = [&](std::size_t k) {
+                    return layers_[k].kind(cell, work.lately[k]) != Kind::Nothing;
+                };
+                std::size_t in = 0;
+                while (in < layers_.size() && !isIn(in)) ++in;
+                if (in == layers_.size()) return true;
+                const Through way{cell, cells.inCell(cell, ray.eye + from * ray.along),
+                                  cells.inCell(cell, ray.eye + to * ray.along), ray.along,
+                                  (to - from) * ray.weight};
+                collect(way, work);
+                if (slopes) {
+                    const bool isEven = layers_[in].fieldIn(cell, work.lately[in]).isEven();
+                    work.slopes =
+                        isEven ? std::array<glm::dvec3, 8>{} : slopes->gradients(cell, scale);
+                }
+                for (std::size_t i = 1; i < work.ends.size(); ++i)
+                    if (work.ends[i] > work.ends[i - 1])
+                        pass(way, {work.ends[i - 1], work.ends[i]}, work);
+                return !seen.isOpaque();
+            });
             return seen.light();
         });
 }

@@ -9,11 +9,14 @@
 #include <glm/vec4.hpp>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "render/model/scene.h"
 #include "render/points/view.h"
 #include "render/reference/interval_cells.h"
+#include "render/reference/light_on_ray.h"
+#include "render/reference/opaque_depths.h"
 #include "render/reference/sparse_walk.h"
 #include "render/together.h"
 
@@ -44,13 +47,25 @@ class IntervalTruth {
     // opticalDepthPerWeight(opacity) a unit of W and of the colour that the field's value has
     // there, lit as its gradient has it where the scene has light, which REQUIRES scene.cells.
     // Premultiplied, linear. [y][x], row 0 at the bottom.
-    std::vector<glm::dvec4> light(const View& view) const;
+    std::vector<glm::dvec4> light(const View& view) const {
+        return light(view, LightOnRay::Of::Front);
+    }
+    // In no order: of each pixel the sum of optical depth times colour, and the optical depth.
+    std::vector<glm::dvec4> sums(const View& view) const {
+        return light(view, LightOnRay::Of::All);
+    }
+    // Rays end there from now on.
+    void endAt(OpaqueDepths opaque) { opaque_ = std::move(opaque); }
 
  private:
     struct Ray {
-        glm::dvec3 eye, along;  // axis coordinates; a unit of t is one of view depth
-        double near, weight;    // where it begins; W of a unit of t
+        glm::dvec3 eye, along;     // axis coordinates; a unit of t is one of view depth
+        double near, far, weight;  // where it begins and ends; W of a unit of t
     };
+    // visit(cell, from, to) as long as it is true: what the ray passes.
+    template <typename Visit>
+    void walk(const Ray& ray, const Visit& visit) const;
+    std::vector<glm::dvec4> light(const View& view, LightOnRay::Of what) const;
     // The mean over rays at these places in each pixel of sum(ray, work); each thread has a `Work`.
     template <typename Pixel, typename Work, typename Sum>
     std::vector<Pixel> meanOfRays(const View& view, std::span<const glm::ivec2> pixels,
@@ -65,6 +80,7 @@ class IntervalTruth {
     timeseries::FieldSlab slab_;
     std::vector<glm::dvec2> places_;
     unsigned threads_;
+    OpaqueDepths opaque_;
     std::optional<SparseWalk> walk_;  // none of a mesh
     std::vector<IntervalCells> layers_;
 };

@@ -71,8 +71,8 @@ class LightOfParts {
     // The layers outlive this. Their colours as they are.
     explicit LightOfParts(std::span<const Layer> layers) : layers_(layers), light_(layers) {}
     // As the scene's light falls on them, which outlives this, on rays that go `way` in the world.
-    explicit LightOfParts(const Scene& scene)
-        : layers_(scene.layers), light_(scene.layers), lit_(&scene) {}
+    explicit LightOfParts(const Scene& scene, LightOnRay::Of what = LightOnRay::Of::Front)
+        : layers_(scene.layers), light_(scene.layers, what), lit_(&scene) {}
     void setWay(const glm::dvec3& way) { way_ = way; }
 
     // Emission and absorption from the eye on; where parts lie over each other, of all of them at

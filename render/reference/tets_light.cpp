@@ -39,7 +39,8 @@ std::array<glm::dvec3, 2> gradientsOn(const PointsView& view, const TetSplat<dou
 std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& field,
                                  const PointsView& seen, glm::ivec2 size,
                                  std::span<const glm::ivec2> pixels,
-                                 std::span<const glm::dvec2> places, unsigned threads) {
+                                 std::span<const glm::dvec2> places, unsigned threads,
+                                 const OpaqueDepths& opaque) {
     std::vector<std::vector<PassedPart>> parts(kCellParts);
     const double steepness = steepnessOf(scene);
     const double unit = scene.gradients ? scene.gradients->range() : 1;
@@ -53,7 +54,7 @@ std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& fi
                 tet::gradientsOf(s, scene.gradients ? &tet.gradients : nullptr, unit);
             for (std::size_t ray = 0; ray < places.size(); ++ray) {
                 const glm::dvec2 window = glm::dvec2(pixels[pixel]) + places[ray];
-                const auto in = partOnRay(seen, s, window);
+                const auto in = partOnRay(seen, s, window, opaque.at(pixels[pixel]));
                 if (!in) continue;
                 const double weight = passageOf(s, *in, lengthPerDepth(seen, window));
                 parts[part].push_back({static_cast<std::uint32_t>(pixel * places.size() + ray),
@@ -76,11 +77,12 @@ std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& fi
 
 std::vector<glm::dvec4> meshLight(const Scene& scene, const timeseries::Field& field,
                                   const View& view, std::span<const glm::dvec2> places,
-                                  unsigned threads) {
+                                  unsigned threads, LightOnRay::Of what,
+                                  const OpaqueDepths& opaque) {
     const CellsView seen(scene.placed, view);
     std::vector<glm::dvec4> light(static_cast<std::size_t>(view.size.x) *
                                   static_cast<std::size_t>(view.size.y));
-    LightOfParts lightOf(scene);
+    LightOfParts lightOf(scene, what);
     std::vector<PartInLayer> ofRay;
     for (int top = 0; top < view.size.y; top += kSquareOfRays)
         for (int left = 0; left < view.size.x; left += kSquareOfRays) {
@@ -88,7 +90,8 @@ std::vector<glm::dvec4> meshLight(const Scene& scene, const timeseries::Field& f
             for (int y = top; y < std::min(top + kSquareOfRays, view.size.y); ++y)
                 for (int x = left; x < std::min(left + kSquareOfRays, view.size.x); ++x)
                     pixels.emplace_back(x, y);
-            const auto passed = passedBy(scene, field, seen, view.size, pixels, places, threads);
+            const auto passed =
+                passedBy(scene, field, seen, view.size, pixels, places, threads, opaque);
             for (std::size_t i = 0; i < passed.size();) {
                 const std::uint32_t ray = passed[i].ray;
                 ofRay.clear();

@@ -33,9 +33,9 @@ glm::ivec2 PixelBins::squareOf(const glm::dvec2& at) const {
 }
 
 std::optional<PartOnRay> partOnRay(const PointsView& view, const TetSplat<double>& seen,
-                                   const glm::dvec2& window) {
+                                   const glm::dvec2& window, double opaque) {
     const glm::dvec2 offset = window - view.rays.centre - seen.centre;
-    const auto [from, to] = wayThrough(view, seen, offset, std::numeric_limits<double>::infinity());
+    const auto [from, to] = wayThrough(view, seen, offset, opaque);
     if (!(to > from)) return std::nullopt;
     const double shift = offset.x * seen.fX + offset.y * seen.fY;
     const double change = seen.fRay + shift, first = seen.f + seen.base * shift + from * change;
@@ -82,7 +82,8 @@ std::vector<double> addedUp(std::span<const std::vector<double>> parts) {
 
 std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& field, const View& view,
                                std::size_t layer, std::span<const glm::ivec2> pixels,
-                               std::span<const glm::dvec2> places, unsigned threads) {
+                               std::span<const glm::dvec2> places, unsigned threads,
+                               const OpaqueDepths& opaque) {
     const CellsView seen(scene.placed, view);
     const PixelBins bins(pixels, view.size);
     std::vector<std::vector<double>> parts(kCellParts, std::vector<double>(pixels.size()));
@@ -105,7 +106,7 @@ std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& fiel
                     if (!s.visible) continue;
                     for (const glm::dvec2& place : places) {
                         const glm::dvec2 window = glm::dvec2(pixels[pixel]) + place;
-                        if (const auto in = partOnRay(seen, s, window))
+                        if (const auto in = partOnRay(seen, s, window, opaque.at(pixels[pixel])))
                             sum += passageOf(s, *in, lengthPerDepth(seen, window));
                     }
                 }

@@ -15,6 +15,7 @@
 
 #include "render/model/scene.h"
 #include "render/points/view.h"
+#include "render/reference/opaque_depths.h"
 #include "render/splat/solid_tets.h"
 #include "render/splat/window_box.h"
 #include "render/together.h"
@@ -149,9 +150,10 @@ struct PartOnRay {
     double from, to;
     double begin, end;
 };
-// Of the ray at a window position.
+// Of the ray at a window position, as far as view depth `opaque`.
 std::optional<PartOnRay> partOnRay(const PointsView& view, const TetSplat<double>& seen,
-                                   const glm::dvec2& window);
+                                   const glm::dvec2& window,
+                                   double opaque = std::numeric_limits<double>::infinity());
 // W of it, of a length or a crossing as it was seen with.
 double passageOf(const TetSplat<double>& seen, const PartOnRay& part, double lengthPerDepth);
 // How long the ray there is for a unit of view depth, in units of l.
@@ -164,6 +166,7 @@ std::vector<double> addedUp(std::span<const std::vector<double>> parts);
 // IntervalTruth has it.
 std::vector<double> meshWeight(const Scene& scene, const timeseries::Field& field, const View& view,
                                std::size_t layer, std::span<const glm::ivec2> pixels,
-                               std::span<const glm::dvec2> places, unsigned threads);
+                               std::span<const glm::dvec2> places, unsigned threads,
+                               const OpaqueDepths& opaque = {});
 
 }  // namespace render

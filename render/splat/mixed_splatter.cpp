@@ -1,15 +1,14 @@
 #include "render/splat/mixed_splatter.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "render/splat/cell_batches.h"
 #include "render/splat/cell_kernels.h"
-#include "render/splat/drawn_points.h"
 #include "render/splat/mixed_list.h"
 #include "render/splat/open_tiles.h"
 #include "render/splat/seen_cells.h"
+#include "render/splat/seen_splats.h"
 #include "render/splat/tet_kernels.h"
 #include "render/splat/tile_bins.h"
 #include "render/splat/tile_kernels.h"
@@ -30,19 +29,15 @@ struct Points {
     struct {
         std::vector<std::uint32_t> index;
         std::vector<float> tint;
-        std::vector<SeenSplat> seen;
     } list;
-    DrawnPoints drawn;  // of a mesh
+    SeenSplats seen;
     std::vector<TileSpan> spans;
-    std::vector<std::uint32_t> place;  // in `list`: of a mesh, what its index is then
 
-    void take(std::size_t count, const std::shared_ptr<const timeseries::Mesh>& mesh) {
+    void take(const Scene& scene, TileView& view, std::size_t count) {
         list.index.resize(count);
         list.tint.resize(count);
         spans.resize(count);
-        if (!mesh) return;
-        list.seen.resize(std::max(list.seen.size(), count));
-        drawn.begin(mesh, count);
+        seen.begin(scene, view, count);
     }
 };
 
@@ -120,20 +115,8 @@ void Part::look(const Scene& scene, const CellView& cells, const TilePlane& plan
         lookAtCells(scene, cells, plane, batches, passed.subspan(from, i - from));
         stretches_.push_back({last, cellSpans_.size()});
     }
-    if (scene.placed.isMesh()) {
-        const std::size_t count = last - first;
-        const auto index = std::span(points.list.index).subspan(first, count);
-        seeSplats(scene, splats, index, points.drawn.of(first, index),
-                  std::span(points.list.seen).subspan(first, count),
-                  std::span(points.spans).subspan(first, count));
-        std::iota(points.list.index.begin() + std::ptrdiff_t(first),
-                  points.list.index.begin() + std::ptrdiff_t(last),
-                  static_cast<std::uint32_t>(first));
-    } else {
-        const std::size_t count = last - first;
-        findTiles(splats, std::span(points.list.index).subspan(first, count),
-                  std::span(points.spans).subspan(first, count));
-    }
+    points.seen.see(scene, splats, first, std::span(points.list.index).subspan(first, last - first),
+                    std::span(points.spans).subspan(first, last - first));
     bin(cells, points, first, last);
 }
 
@@ -243,8 +226,7 @@ void MixedSum::Work::sum(std::span<const CellOrPoint> some, bool lastOfAll) {
                                              [&](const CellOrPoint& of) {
                                                  return scene.layers[of.layer].byPoints;
                                              })));
-    points.take(firsts.back(), scene.placed.mesh());
-    if (scene.placed.isMesh()) splats.meshSplats = points.list.seen;
+    points.take(scene, splats, firsts.back());
     together(shared, [&](unsigned k) {
         parts[k].look(scene, cells, plane, splats, columns, batches,
                       some.subspan(beginOf(k), beginOf(k + 1) - beginOf(k)), points, firsts[k]);
@@ -269,10 +251,6 @@ MixedSum::MixedSum(const Scene& scene, const View& view, std::span<const float> 
 }
 MixedSum::MixedSum(MixedSum&&) noexcept = default;
 MixedSum::~MixedSum() = default;
-
-bool MixedSum::canSum(const PlacedPoints& placed, const Footprint& footprint) {
-    return TileSum::canSum(placed, footprint);
-}
 
 std::uint64_t MixedSum::add(std::uint64_t count) {
     Work& work = *work_;

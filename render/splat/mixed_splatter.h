@@ -22,14 +22,11 @@ namespace render {
 // pixel is the mean of several rays for cells, it is for points, too.
 class MixedSum {
  public:
-    // REQUIRES: canSum() of the scene's.
     MixedSum(const Scene& scene, const View& view, std::span<const float> opaqueDepth,
              int raysAcross = 1, unsigned threads = sharingThreads(), PlanePixels memory = {});
     MixedSum(MixedSum&&) noexcept;
     ~MixedSum();
 
-    // Splats that are cut at the domain's faces are summed without cells alone.
-    static bool canSum(const PlacedPoints& placed, const Footprint& footprint);
     // So many, or what is left; returns how many. First they are listed and put in order, of which
     // some count as one.
     std::uint64_t add(std::uint64_t cellsAndPoints);

@@ -9,7 +9,6 @@
 #include "render/splat/cell_pieces.h"
 #include "render/splat/cell_splatter.h"
 #include "render/splat/mixed_splatter.h"
-#include "render/splat/row_splatter.h"
 
 namespace render {
 namespace {
@@ -140,24 +139,20 @@ class ProcessorFrame final : public SplatFrame {
             return CellSum(scene_, view, channels, layer, opaqueDepth_, raysAcross(scene_, view),
                            sharingThreads(), std::move(memory_.cells));
         };
-        const auto rows = [&](const Scene& scene) {
-            return RowSum(scene, list_, view, channels, layer, opaqueDepth_, sharingThreads(),
-                          std::move(memory_.rows));
+        const auto points = [&](const Scene& scene) {
+            return TileSum(scene, list_, view, channels, layer, opaqueDepth_, sharingThreads(),
+                           std::move(memory_.tiles));
         };
         if (points_ && channels == Channels::Over)
             return plane(MixedSum(scene_, view, opaqueDepth_, raysAcross(scene_, view),
                                   sharingThreads(), std::move(memory_.mixed)),
                          memory_.mixed);
         if (points_ && channels == Channels::Count)
-            return std::make_unique<BothPlanes<CellSum, RowSum>>(cells(), rows(*points_), view.size,
-                                                                 channels, layer, targets);
+            return std::make_unique<BothPlanes<CellSum, TileSum>>(
+                cells(), points(*points_), view.size, channels, layer, targets);
         const Scene& scene = points_ && scene_.layers[layer].byPoints ? *points_ : scene_;
         if (scene.cells) return plane(cells(), memory_.cells);
-        if (TileSum::canSum(scene, channels))
-            return plane(TileSum(scene, list_, view, channels, layer, opaqueDepth_,
-                                 sharingThreads(), std::move(memory_.tiles)),
-                         memory_.tiles);
-        return plane(rows(scene), memory_.rows);
+        return plane(points(scene), memory_.tiles);
     }
 
  private:
@@ -178,7 +173,7 @@ class ProcessorFrame final : public SplatFrame {
 }  // namespace
 
 bool ProcessorSplatter::sortsWhenDrawn(const Scene& scene) {
-    return scene.order != Order::None && !scene.cells && TileSum::canSum(scene, Channels::Over) &&
+    return scene.order != Order::None && !scene.cells &&
            splatCount(scene) <= TileSum::kOrderedAtOnce;
 }
 

@@ -13,7 +13,7 @@ namespace render {
 
 class ProcessorSplatter final : public Splatter {
  public:
-    // By the tiles themselves, where those draw it.
+    // By the tiles themselves, where they can put it in order.
     DrawList order(const Scene& scene, const glm::dvec3& midEye) override {
         if (sortsWhenDrawn(scene)) return SortWhenDrawn{midEye};
         return order_(scene, midEye);
@@ -26,7 +26,7 @@ class ProcessorSplatter final : public Splatter {
     // Kept from frame to frame: pages that are new cost more than what is done with them.
     struct Memory {
         std::vector<float> opaqueDepth;
-        PlanePixels rows, mixed;
+        PlanePixels mixed;
         TileMemory tiles;
         CellMemory cells;
     };

@@ -1,5 +1,6 @@
-// Splats of a mesh as a view sees them, each worked out once for all tiles that it touches: their
-// cells come from neighbours' places, anywhere in memory.
+// Splats as a view sees them, each worked out once for all tiles that it touches: those of a mesh,
+// whose cells come from neighbours' places, anywhere in memory, and those that end at the domain's
+// faces.
 #pragma once
 
 #include <array>
@@ -42,9 +43,15 @@ inline const float* floatsOf(const SeenSplat& splat) {
 }
 inline float* floatsOf(SeenSplat& splat) { return reinterpret_cast<float*>(&splat); }
 
+// What Splat::insideShare() is worked out from; a depth of 0 where the splat ends nowhere.
+struct alignas(64) SplatCut {
+    std::array<float, 3> c, x, y, loFace, hiFace;
+    float depth;
+};
+
 // Those of the points of these grid indices, which the mesh keeps so, as splatAt() has them, their
-// places in double, several at once; and the tiles that each touches. REQUIRES: a scene of a mesh,
-// whose splats are no points; as many of each as indices.
+// places in double, several at once; and the tiles that each touches. REQUIRES: a scene of a mesh
+// that is not seen one by one (TileView::oneByOne); as many of each as indices.
 void seeSplats(const Scene& scene, const TileView& view, std::span<const std::uint32_t> gridIndex,
                std::span<const timeseries::Mesh::Point> points, std::span<SeenSplat> splats,
                std::span<TileSpan> spans);

@@ -27,6 +27,7 @@ struct Batch {
     alignas(64) float change[kLanes], mostDepth[kLanes];
     alignas(64) float weight[kLanes], depth[kLanes], red[kLanes], green[kLanes], blue[kLanes];
     alignas(64) std::int32_t x[kLanes], y[kLanes], columns[kLanes], rows[kLanes];
+    const SplatCut* cut[kLanes];  // of those that may end at the domain's faces
 };
 
 HWY_INLINE F volume(const TileView& view, const Points& p) {
@@ -147,7 +148,7 @@ HWY_INLINE void takeSeen(const TileView& view, const std::uint32_t* index, glm::
     const Ints ints;
     F record[kSeenFloats];
     for (std::size_t i = 0; i < kSeenFloats; i += 4)
-        loadFours([&](std::size_t k) { return floatsOf(view.meshSplats[index[k]]) + i; },
+        loadFours([&](std::size_t k) { return floatsOf(view.seenSplats[index[k]]) + i; },
                   record + i);
     const auto whole = [&](std::size_t field) HWY_ATTR { return hn::BitCast(ints, record[field]); };
     const I columns = whole(kSeenColumns), rows = whole(kSeenRows);
@@ -181,16 +182,20 @@ HWY_INLINE void takeSeen(const TileView& view, const std::uint32_t* index, glm::
 }
 
 // What splats are: squares of whole pixels; spheres or other ellipsoids that are all alike, whose
-// factor is everywhere the same or a pixel's; or others.
-enum class Shape { Square, Sphere, Even, Uneven };
+// factor is everywhere the same or a pixel's; or others, which may end at the domain's faces.
+enum class Shape { Square, Sphere, Even, Uneven, Cut };
+constexpr bool isUneven(Shape shape) { return shape == Shape::Uneven || shape == Shape::Cut; }
+constexpr bool mayBeSeenBefore(Shape shape) { return isUneven(shape) || shape == Shape::Square; }
 
 template <Shape kShape>
 HWY_INLINE void setUp(const TileView& view, const std::uint32_t* words, const float* tints,
                       glm::ivec2 at, glm::ivec2 size, Batch& out) {
     F weight;
-    if (kShape == Shape::Uneven && !view.meshSplats.empty()) {
+    if (mayBeSeenBefore(kShape) && view.isSeenBefore) {
         takeSeen(view, words, at, size, out);
         weight = hn::Load(Floats(), out.weight);
+        if constexpr (kShape == Shape::Cut)
+            for (std::size_t k = 0; k < kLanes; ++k) out.cut[k] = &view.cuts[words[k]];
     } else {
         const Points p = see(view, words, kShape == Shape::Square ? glm::ivec2(0) : at);
         setUpBox(view, p, at, size, out);
@@ -198,7 +203,7 @@ HWY_INLINE void setUp(const TileView& view, const std::uint32_t* words, const fl
             weight =
                 hn::Mul(hn::Mul(f(view.weight), volume(view, p)), hn::Mul(p.perDepth, p.perDepth));
         else
-            weight = kShape == Shape::Uneven ? setUpUneven(view, p, out) : setUpEven(view, p, out);
+            weight = isUneven(kShape) ? setUpUneven(view, p, out) : setUpEven(view, p, out);
         weight = hn::Mul(weight, faded(view, p.depth));
     }
     if (tints != nullptr) weight = hn::Mul(weight, setUpTints(view, tints, out));

@@ -83,9 +83,9 @@ HWY_INLINE void sumOf(const TileView& view, std::span<const std::uint32_t> words
     for (std::size_t i = 0; i < words.size(); i += kLanes) {
         if (kChannels == Channels::Over && i % kBetweenLooks == 0 && room.isClosed()) return;
         const std::size_t count = std::min(kLanes, words.size() - i);
-        if (kShape == Shape::Uneven && !view.meshSplats.empty())  // the next, which lie anywhere
+        if (mayBeSeenBefore(kShape) && view.isSeenBefore)  // the next, which lie anywhere
             for (std::size_t k = i + kLanes; k < std::min(i + 2 * kLanes, words.size()); ++k)
-                __builtin_prefetch(&view.meshSplats[words[k]]);
+                __builtin_prefetch(&view.seenSplats[words[k]]);
         const std::uint32_t* some = words.data() + i;
         const float* someTints = tints.empty() ? nullptr : tints.data() + i;
         if (count < kLanes) {
@@ -115,6 +115,7 @@ HWY_INLINE void sumOf(const TileView& view, std::span<const std::uint32_t> words
     if (view.pointSide > 0) return sumOf<kChannels, Shape::Square>(view, words, tints, room);
     if (view.spheres) return sumOf<kChannels, Shape::Sphere>(view, words, tints, room);
     if (view.even) return sumOf<kChannels, Shape::Even>(view, words, tints, room);
+    if (view.endsAtFaces) return sumOf<kChannels, Shape::Cut>(view, words, tints, room);
     sumOf<kChannels, Shape::Uneven>(view, words, tints, room);
 }
 
@@ -125,8 +126,10 @@ HWY_ATTR void SumTile(const TileView& view, std::span<const std::uint32_t> words
             return sumOf<Channels::Weight>(view, words, tints, room);
         case Channels::WeightedColor:
             return sumOf<Channels::WeightedColor>(view, words, tints, room);
-        default:
+        case Channels::Over:
             return sumOf<Channels::Over>(view, words, tints, room);
+        case Channels::Count:
+            return sumOf<Channels::Count>(view, words, tints, room);
     }
 }
 

@@ -13,12 +13,13 @@
 
 namespace render {
 
-// Not of a mesh. Of the points of these grid indices, into the same places; what they are for
-// sumTile() takes the place of the indices.
+// Of the points of these grid indices, into the same places; what they are for sumTile() takes the
+// place of the indices. REQUIRES: none that are seen before (TileView).
 void findTiles(const TileView& view, std::span<std::uint32_t> points, std::span<TileSpan> spans);
 
 // Adds splats, in this order; Over: each before those that come later: as findTiles() leaves them,
-// or places among a mesh's, and places among the tints, none for Weight.
+// or places among those that were seen before; and places among the tints, none for Weight and
+// Count.
 void sumTile(const TileView& view, std::span<const std::uint32_t> points,
              std::span<const float> tints, TileRoom& room);
 

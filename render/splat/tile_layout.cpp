@@ -1,14 +1,6 @@
 #include "render/splat/tile_layout.h"
 
 namespace render {
-namespace {
-
-std::array<float, 3> floats(const glm::dvec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-}  // namespace
-
 View finer(View view, int raysAcross) {
     view.size *= raysAcross;
     return view;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "render/model/covered.h"
@@ -14,6 +15,10 @@
 namespace render {
 
 constexpr int kTileWidth = 64;
+
+inline std::array<float, 3> floats(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
 // The same picture with so many rays across each of its pixels as pixels of their own.
 View finer(View view, int raysAcross);

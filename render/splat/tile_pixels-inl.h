@@ -7,6 +7,8 @@
 #define RENDER_TILE_PIXELS_INL_H_
 #endif
 
+#include <limits>
+
 #include "render/model/footprint.h"
 #include "render/splat/lanes-inl.h"
 #include "render/splat/tile_batch-inl.h"
@@ -27,6 +29,18 @@ struct AddWeight {
         : lanes(l), weight(hn::Set(l, b.weight[k])), sums(room.sums.data()) {}
     HWY_INLINE void operator()(hn::Vec<Lanes> t, std::size_t at) const {
         hn::StoreU(hn::MulAdd(t, weight, hn::LoadU(lanes, sums + at)), lanes, sums + at);
+    }
+};
+
+// Of Count: one where it has any.
+template <class Lanes>
+struct AddOne {
+    Lanes lanes;
+    float* HWY_RESTRICT sums;
+    AddOne(Lanes l, TileRoom& room) : lanes(l), sums(room.sums.data()) {}
+    HWY_INLINE void operator()(hn::Vec<Lanes> t, std::size_t at) const {
+        const auto one = hn::IfThenElseZero(hn::Gt(t, hn::Zero(lanes)), hn::Set(lanes, 1.0f));
+        hn::StoreU(hn::Add(one, hn::LoadU(lanes, sums + at)), lanes, sums + at);
     }
 };
 
@@ -79,11 +93,47 @@ struct LayUnder {
 
 // The footprints that q = n / d has: of even splats d is the ray's; of splats that are narrow
 // beside their distance it is so near 1 that a series tells 1 / sqrt(d) as well as floats can.
-enum class Form { Even, Narrow, Any };
+// Cut: of any that ends at a face.
+enum class Form { Even, Narrow, Any, Cut };
 constexpr float kNarrow = 1.0f / 32;  // |d - 1|, at most: what is left out is below 3e-7
 
+// oddPolynomial() of the clamped.
+template <class Lanes, class V = hn::Vec<Lanes>>
+HWY_INLINE V alongRay(Lanes lanes, V at) {
+    const V one = hn::Set(lanes, 1.0f);
+    const V u = hn::Min(hn::Max(at, hn::Neg(one)), one), u2 = hn::Mul(u, u);
+    V sum = hn::Zero(lanes);
+    for (int k = 6; k >= 0; --k)
+        sum = hn::MulAdd(sum, u2, hn::Set(lanes, static_cast<float>(kAlongRay[k])));
+    return hn::Mul(sum, u);
+}
+
+// Splat::insideShare() at these offsets. `rest` is 1 - q, above 0 where it matters.
+template <class Lanes, class V = hn::Vec<Lanes>>
+HWY_INLINE V insideShare(Lanes lanes, const SplatCut& cut, V ox, V oy, V rest) {
+    const auto set = [&](float x) HWY_ATTR { return hn::Set(lanes, x); };
+    const V never = set(std::numeric_limits<float>::max()), least = set(1e-20f);
+    V from = hn::Neg(never), to = never, dd = hn::Zero(lanes), hd = dd;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const V added = hn::MulAdd(ox, set(cut.x[a]), hn::Mul(oy, set(cut.y[a])));
+        const V h = hn::Mul(set(cut.depth), added), along = hn::Add(set(cut.c[a]), added);
+        dd = hn::MulAdd(along, along, dd);
+        hd = hn::MulAdd(h, along, hd);
+        const V per = hn::Div(set(1), hn::IfThenElse(hn::Lt(hn::Abs(along), least), least, along));
+        const V one = hn::Mul(hn::Sub(set(cut.loFace[a]), h), per);
+        const V other = hn::Mul(hn::Sub(set(cut.hiFace[a]), h), per);
+        from = hn::Max(from, hn::Min(one, other));
+        to = hn::Min(to, hn::Max(one, other));
+    }
+    const V nearest = hn::Div(hn::Neg(hd), dd), perHalf = hn::Sqrt(hn::Div(dd, rest));
+    const V first = hn::Sub(from, nearest), last = hn::Max(hn::Sub(to, nearest), first);
+    return hn::Mul(set(0.5f), hn::Sub(alongRay(lanes, hn::Mul(last, perHalf)),
+                                      alongRay(lanes, hn::Mul(first, perHalf))));
+}
+
 // What of a splat's weight the pixels of its box take: (1 - q)^4, / sqrt(d) where it is not even,
-// nothing where the opaque scene hides it, and exactly nothing beside the footprint.
+// its share before a face, nothing where the opaque scene hides it, and exactly nothing beside the
+// footprint.
 template <Form kForm, bool kHidden, class Lanes, class Sink>
 HWY_INLINE void forPixels(Lanes lanes, const Batch& b, std::size_t k, const TileRoom& room,
                           const Sink& sink) {
@@ -125,10 +175,16 @@ HWY_INLINE void forPixels(Lanes lanes, const Batch& b, std::size_t k, const Tile
                         one);
                 else
                     root = reciprocalRoot(lanes, hn::Max(d, least));
-                t = hn::Max(hn::NegMulAdd(hn::Mul(n, root), root, one), zero);
-                t = hn::Mul(t, t);
+                const V rest = hn::Max(hn::NegMulAdd(hn::Mul(n, root), root, one), zero);
+                t = hn::Mul(rest, rest);
                 t = hn::Mul(hn::Mul(t, t), root);
-                if constexpr (kForm == Form::Any) t = hn::IfThenElseZero(hn::Gt(d, least), t);
+                auto some = hn::Gt(d, least);
+                if constexpr (kForm == Form::Cut) {
+                    some = hn::And(some, hn::Gt(rest, zero));
+                    if (hn::AllFalse(lanes, some)) continue;
+                    t = hn::Mul(t, insideShare(lanes, *b.cut[k], ox, oy, rest));
+                }
+                if constexpr (kForm != Form::Narrow) t = hn::IfThenElseZero(some, t);
             }
             if constexpr (kHidden)
                 t = hn::IfThenElseZero(hn::Le(depth, hn::LoadU(lanes, opaque + at)), t);
@@ -168,11 +224,14 @@ HWY_INLINE void addSplat(Lanes lanes, const Batch& b, std::size_t k, TileRoom& r
                          const Sink& sink) {
     if constexpr (kShape == Shape::Square)
         return forSquare(lanes, b, k, room, b.depth[k] > room.nearestOpaque, sink);
-    else if constexpr (kShape != Shape::Uneven)
+    else if constexpr (!isUneven(kShape))
         return addForm<Form::Even>(lanes, b, k, room, sink);
-    else
+    else {
+        if constexpr (kShape == Shape::Cut)
+            if (b.cut[k]->depth > 0) return addForm<Form::Cut>(lanes, b, k, room, sink);
         return b.change[k] <= kNarrow ? addForm<Form::Narrow>(lanes, b, k, room, sink)
                                       : addForm<Form::Any>(lanes, b, k, room, sink);
+    }
 }
 
 template <Channels kChannels, Shape kShape, class Lanes>
@@ -181,6 +240,8 @@ HWY_INLINE void addSplat(Lanes lanes, const Batch& b, std::size_t k, TileRoom& r
         return addSplat<kShape>(lanes, b, k, room, AddWeight<Lanes>(lanes, b, k, room));
     else if constexpr (kChannels == Channels::WeightedColor)
         return addSplat<kShape>(lanes, b, k, room, AddColor<Lanes>(lanes, b, k, room));
+    else if constexpr (kChannels == Channels::Count)
+        return addSplat<kShape>(lanes, b, k, room, AddOne<Lanes>(lanes, room));
     else if (constexpr bool kFactors = kShape != Shape::Sphere; b.mostDepth[k] <= 0.5f)
         addSplat<kShape>(lanes, b, k, room, LayUnder<Lanes, true, kFactors>(lanes, b, k, room));
     else
@@ -192,7 +253,7 @@ template <Shape kShape>
 HWY_INLINE void setUpDepth(const TileRoom& room, Batch& b) {
     const Floats floats;
     F most = hn::Mul(hn::Load(floats, b.weight), f(room.largestFactor));
-    if constexpr (kShape == Shape::Uneven) {
+    if constexpr (isUneven(kShape)) {
         const F least = hn::Sub(f(1), hn::Load(floats, b.change));
         most = hn::Div(most, hn::Sqrt(hn::Max(least, f(kLeastDenominator))));
     }

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "render/splat/depth_order.h"
 #include "render/splat/distances.h"
-#include "render/splat/drawn_points.h"
+#include "render/splat/seen_splats.h"
 #include "render/splat/splat_source.h"
 #include "render/splat/tile_chains.h"
 #include "render/splat/tile_kernels.h"
@@ -77,8 +75,7 @@ void putInOrder(InTile& here) {
 struct TileMemory::Kept {
     PlanePixels plane;
     SplatPoints points;
-    timeseries::LargeVector<SeenSplat> seen;  // of a mesh, of these points
-    DrawnPoints drawn;
+    SeenSplats seen;  // of these points
     // One a thread.
     std::vector<TileChains> chains;
     std::vector<InTile> inTile;
@@ -112,7 +109,7 @@ struct TileSum::Work {
         : scene(drawn),
           columns(columnsOf(scene)),
           view(scene, of, channels, layer),
-          entry(channels == Channels::Weight ? Entry::Index : Entry::Tinted),
+          entry(floatsPerPixel(channels) == 1 ? Entry::Index : Entry::Tinted),
           threads(std::max(shared, 1u)),
           pairsAtOnce(most),
           memory(before.kept ? std::move(before) : TileMemory()),
@@ -156,19 +153,14 @@ void TileSum::Work::look(std::size_t first, std::size_t count, Batch& batch) {
             columns.values);
     const auto index = std::span(batch.index).first(count);
     const auto spans = std::span(batch.spans).first(count);
-    std::span<const timeseries::Mesh::Point> drawn;
-    if (scene.placed.isMesh()) drawn = kept.drawn.of(first, index);
     if (entry == Entry::Keyed) {
         std::array<double, Batch::kMost> away;
-        distances->find(index, std::span(away).first(count), drawn);
+        std::span<const timeseries::Mesh::Point> stored;
+        if (scene.placed.isMesh()) stored = kept.seen.pointsOf(first, index);
+        distances->find(index, std::span(away).first(count), stored);
         for (std::size_t i = 0; i < count; ++i) batch.key[i] = keys.of(std::max(away[i], 0.0));
     }
-    if (!scene.placed.isMesh()) {
-        findTiles(view, index, spans);
-    } else {
-        seeSplats(scene, view, index, drawn, std::span(kept.seen).subspan(first, count), spans);
-        std::iota(index.begin(), index.end(), static_cast<std::uint32_t>(first));
-    }
+    kept.seen.see(scene, view, first, index, spans);
 }
 
 // Into the tiles that they touch, until there are more than so many pairs. Returns where it ended,
@@ -248,11 +240,7 @@ void TileSum::Work::sumTiles(std::span<const TileChains> chains, bool lastOfAll)
 void TileSum::Work::sum() {
     const std::size_t count = kept.points.point.size();
     const unsigned shared = threadsFor(count, kSplatsWorthAThread, threads);
-    if (scene.placed.isMesh()) {
-        kept.seen.resize(std::max(kept.seen.size(), count));
-        view.meshSplats = kept.seen;
-        kept.drawn.begin(scene.placed.mesh(), count);
-    }
+    kept.seen.begin(scene, view, count);
     for (std::size_t first = 0;;) {
         first = binAll(first, shared);
         const bool isAll = first == count && source->done();
@@ -281,7 +269,6 @@ TileSum::TileSum(const Scene& scene, const DrawList& list, const View& view, Cha
                  TileMemory memory, std::uint64_t pairsAtOnce)
     : work_(new Work(scene, list, view, channels, layer, opaqueDepth, threads, std::move(memory),
                      pairsAtOnce)) {
-    assert(canSum(scene, channels));
     if (!done()) return;
     work_->kept.points.point.clear();
     work_->sum();  // nothing, which also is to be written
@@ -289,11 +276,6 @@ TileSum::TileSum(const Scene& scene, const DrawList& list, const View& view, Cha
 
 TileSum::TileSum(TileSum&&) noexcept = default;
 TileSum::~TileSum() = default;
-
-bool TileSum::canSum(const PlacedPoints& placed, const Footprint& footprint) {
-    const bool squares = footprint.kernel == Kernel::Point;
-    return !placed.longCells() && !(placed.isMesh() && squares);
-}
 
 std::uint64_t TileSum::add(std::uint64_t splats) {
     std::uint64_t added = 0;

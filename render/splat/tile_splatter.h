@@ -44,8 +44,8 @@ class TileSum {
     static constexpr std::uint64_t kOrderedAtOnce = 1 << 21;
     // `opaqueDepth` is the depth [0, 1] of the opaque scene, a pixel each, row 0 at the bottom, or
     // empty: a splat whose centre lies behind it is not drawn there. `layer` is the plane's, where
-    // it has one; `list` is the scene's. All of them must outlive this. REQUIRES: canSum(scene,
-    // channels). `memory` is what a plane before was made of, if any: pages that are new cost much.
+    // it has one; `list` is the scene's. All of them must outlive this. `memory` is what a plane
+    // before was made of, if any: pages that are new cost much.
     TileSum(const Scene& scene, const DrawList& list, const View& view, Channels channels,
             std::size_t layer, std::span<const float> opaqueDepth,
             unsigned threads = sharingThreads(), TileMemory memory = {},
@@ -53,10 +53,6 @@ class TileSum {
     TileSum(TileSum&&) noexcept;
     ~TileSum();
 
-    static bool canSum(const Scene& scene, Channels channels) {
-        return channels != Channels::Count && canSum(scene.placed, scene.footprint);
-    }
-    static bool canSum(const PlacedPoints& placed, const Footprint& footprint);
     // Adds that many splats, or kLeast if that is more, or what is left, give or take the
     // unevenness of a subset (render/points/subset.h); all of SortWhenDrawn. Returns how many.
     std::uint64_t add(std::uint64_t splats);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -42,8 +41,6 @@ TileView::TileView(const Scene& scene, const View& view, Channels of, std::size_
 TileView::TileView(const Scene& scene, const View& view, const PointsView& seen, Channels of,
                    std::size_t layer, int rays)
     : TileLayout(scene, view, seen, of, rays) {
-    assert(!scene.placed.longCells());
-    assert(channels != Channels::Count);
     for (std::size_t column = 0; column < 4; ++column)
         for (std::size_t k = 0; k < 3; ++k)
             viewFromAxes[column][k] =
@@ -131,9 +128,17 @@ void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const V
     least = static_cast<float>(seen.smallestRadius);
     reach = static_cast<float>(seen.lengthening.most / seen.rayLength);
     const PlacedPoints& placed = scene.placed;
+    const bool square = scene.footprint.kernel == Kernel::Point;
+    pointSide = square ? render::pointSide(scene.footprint) * raysAcross : 0;
+    endsAtFaces = placed.longCells() && !square;
+    isSeenBefore = endsAtFaces || placed.isMesh();
+    if (endsAtFaces || (placed.isMesh() && square)) {
+        oneByOne.emplace(seen);
+        weight = static_cast<float>(seen.rayLength);
+        return;
+    }
     const double perLength = 5 / std::numbers::pi / seen.unitLength * seen.rayLength;
     if (placed.isMesh()) {
-        pointSide = 0;
         weight = static_cast<float>(perLength * placed.mesh()->volumePerDeterminant());
         return;
     }
@@ -141,18 +146,14 @@ void TileView::takeFootprint(const Scene& scene, const PointsView& seen, const V
     const double shortest = radius * std::min({sides.x, sides.y, sides.z});
     for (std::size_t a = 0; a < 3; ++a)
         semiAxes[a] = static_cast<float>(radius * sides[static_cast<int>(a)]);
-    pointSide = scene.footprint.kernel == Kernel::Point
-                    ? render::pointSide(scene.footprint) * raysAcross
-                    : 0;
-    even = pointSide == 0 &&
+    even = !square &&
            (placed.cubes() ||
             (sameCells(placed) && farthestDepth(placed, view) * seen.smallestRadius < shortest));
     spheres = even && placed.cubes();
     if (even) takeEvenForm(seen);
     double mass = perLength;
     if (even) mass /= radius * radius * radius;
-    if (pointSide > 0)
-        mass = seen.cellVolume / (seen.unitLength * seen.pixelArea * pointSide * pointSide);
+    if (square) mass = seen.cellVolume / (seen.unitLength * seen.pixelArea * pointSide * pointSide);
     weight = static_cast<float>(mass);
 }
 

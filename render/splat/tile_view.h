@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,8 +14,8 @@
 
 namespace render {
 
-// `layer` is the plane's for Weight and WeightedColor; Over takes them all. REQUIRES: no long cells
-// (PlacedPoints::longCells), not Count. The placed points must outlive it.
+// `layer` is the plane's for Weight and WeightedColor; Over and Count take them all. The placed
+// points must outlive it.
 struct TileView : TileLayout {
     TileView(const Scene& scene, const View& view, Channels channels, std::size_t layer,
              int raysAcross = 1);
@@ -47,12 +48,18 @@ struct TileView : TileLayout {
     // stands for.
     float weight;
     int pointSide;  // 0: no point splats
-    // Of a mesh, instead of all that the grid tells: what stands in Mesh::Stored in axis
-    // coordinates, and the splats among which indices are places.
+    // Splats are worked out before (SeenSplats), instead of by all that the grid tells: of a mesh,
+    // and where cells are long. Indices are then places among these.
+    bool isSeenBefore = false;
+    std::span<const SeenSplat> seenSplats = {};
+    bool endsAtFaces = false;
+    std::span<const SplatCut> cuts = {};  // of each, if so
+    // Where they are seen one by one, as these; else what stands in Mesh::Stored in axis
+    // coordinates.
+    std::optional<PointsView> oneByOne = {};
     std::array<double, 3> meshScale, meshOffset;
     double levelScale;
     bool hasLevels = false, hasHeights = false;
-    std::span<const SeenSplat> meshSplats = {};
 
  private:
     TileView(const Scene& scene, const View& view, const PointsView& seen, Channels channels,

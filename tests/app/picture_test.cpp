@@ -68,32 +68,6 @@ TEST_F(PictureOfARamp, EachLayerMayHaveAModelOfItsOwn) {
     EXPECT_THAT(pictureOf(e).legend.notes, testing::Contains("layer 3 by points alone"));
 }
 
-// Where a splat ends at the domain's faces, it has no place among cells.
-TEST(NeedsCells, WhereSplatsCannotBePutAmongThemAllIsDrawnByPoints) {
-    const auto grid = std::make_shared<const timeseries::Grid>(
-        std::array{tests::axis(20), tests::axis(20), tests::axis(3, 0, 8)});
-    const SortedStep step =
-        tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); });
-    const render::PlacedPoints placed(*grid);
-    ASSERT_TRUE(placed.longCells());
-    Explorer e;
-    for (const char* range : {"2:5", "8:11"})
-        e.layers.push_back({RangeSet::parse(range), glm::dvec3(1, 0, 0), 0.5});
-    EXPECT_TRUE(needsCells(e, step, placed));
-    e.layers[1].model = Model::Points;
-    EXPECT_FALSE(needsCells(e, step, placed));
-    const render::Scene scene = makeScene(e, step, placed);
-    EXPECT_EQ(scene.cells, nullptr);
-    EXPECT_FALSE(scene.layers[1].byPoints);
-    timeseries::Variable variable;
-    variable.time = std::make_shared<const timeseries::TimeAxis>(
-        timeseries::TimeAxis{"time", "s", "", std::vector(1, timeseries::TimePoint{})});
-    EXPECT_THAT(makeLegend(e, variable, 0, scene).notes,
-                testing::Contains(HasSubstr("drawn by points: the splats of one layer")));
-    e.layers[1].visible = false;
-    EXPECT_TRUE(needsCells(e, step, placed));
-}
-
 TEST_F(PictureOfARamp, OnlyLayersByCellsNeedCells) {
     Explorer e = withRanges({"100:199", "500:600"});
     e.layers[0].model = Model::Cells;

@@ -132,10 +132,15 @@ TEST(Options, CellsAreDrawnUnlessSplatsAreChosen) {
                                "points"}),
                 testing::HasSubstr("2 colours, opacities or models for 1 layer:"));
     EXPECT_EQ(explorer({"--model", "auto", "--model", "points"}).layers.at(0).model, Model::Points);
-    // The truth of points.
-    EXPECT_EQ(render({"--splatter", "exact"}).explorer.model, Model::Points);
-    EXPECT_THAT(renderRefused({"--model", "cells", "--splatter", "exact"}),
-                HasSubstr("--splatter exact draws points"));
+}
+
+TEST(Options, TheTruthDrawsAllByOneModel) {
+    for (const char* model : {"cells", "points"})
+        EXPECT_EQ(render({"--splatter", "exact", "--model", model}).explorer.model,
+                  model == std::string("cells") ? Model::Cells : Model::Points);
+    EXPECT_THAT(renderRefused({"--splatter", "exact", "--range", "1:2", "--model", "cells",
+                               "--range", "3:4", "--model", "points"}),
+                HasSubstr("draws all layers by cells, or all by points"));
 }
 
 TEST(Options, TheSweepTakesItsSettings) {

@@ -249,20 +249,6 @@ def draw_page(part):
     text += "\nOf it: " + "; ".join(f"{name} {time(seconds(f))}" for name, f in small if f) + ".\n"
 
     rows = []
-    kinds = ["one colour", "by value", "by value, back to front"]
-    sizes = ["1024 x 1024", "1440 x 1600"]
-    for splats, diameter, what, eye, asked in [(1000000, 8, 0, 0, 10), (1000000, 8, 1, 0, 9), (1000000, 8, 2, 0, 14), (100000, 8, 0, 0, 12),
-                                               (100000, 8, 2, 0, 14), (1000000, 1, 0, 0, 7), (1000000, 8, 2, 1, 14)]:
-        f = part(f"tiles/splats:{splats}/pixels:{diameter}/what:{what}/eye:{eye}")
-        rows.append([f"{splats:,}", f"{diameter} px", kinds[what], sizes[eye], ms(f, "first_ms"), ms(f, "second_ms"),
-                     digits(f["second/first"]), digits(f["cpu2/cpu1"])])
-        target(f"{splats:,} splats of {diameter} px, {kinds[what]}{', ' + sizes[eye] if eye else ''}: before / by tiles", f["second/first"],
-               asked, at_least=True)
-    text += ("\n## By tiles\n\nOne plane summed by tiles, and as it was before: by rows, or, back to front, by the driver's point sprites\n"
-             "(their order and upload included, as the tiles' order is). By turns.\n\n"
-             + table(["splats", "diameter", "", "pixels", "by tiles", "before", "ratio", "of processor time"], rows))
-
-    rows = []
     for n in (1000, 100, 10):
         f = part(f"costFollowsTheSelection/{n}")
         rows.append([f"{f['splats']:,.0f}", ms(f, "first_ms"), ms(f, "second_ms"), f"{f['second/first']:.3f}", f"{f['cpu2/cpu1']:.3f}"])

@@ -11,7 +11,6 @@
 #include "render/reference/cpu_splatter.h"
 #include "render/reference/image_compare.h"
 #include "render/splat/depth_order.h"
-#include "render/splat/row_splatter.h"
 #include "render/splat/tile_splatter.h"
 #include "tests/support/gl_planes.h"
 
@@ -30,10 +29,7 @@ class SplatsAroundTheEye : public tests::GlTest {
     }
     // And summed on the processor.
     static double summed(const Scene& scene, const View& view, Channels channels) {
-        const DrawList list = order(scene, tests::kMidEye);
-        const std::vector<float> plane = TileSum::canSum(scene, channels)
-                                             ? sumTiles(scene, list, view, channels, 0, {})
-                                             : sumRows(scene, list, view, channels, 0, {});
+        const auto plane = sumTiles(scene, order(scene, tests::kMidEye), view, channels, 0, {});
         return compareScalars(plane, truth(scene, view, channels)).relativeL2;
     }
 

@@ -1,5 +1,5 @@
 // What scientists' data and a headset's scales ask of a splatter at the extremes, one test a row of
-// tests/EXTREMES.md that no other test stands for. By tiles and by rows, against the truth.
+// tests/EXTREMES.md that no other test stands for. By tiles, against the truth.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,16 +10,13 @@
 #include "render/reference/exact_order.h"
 #include "render/reference/image_compare.h"
 #include "render/splat/depth_order.h"
-#include "render/splat/row_splatter.h"
 #include "render/splat/tile_splatter.h"
 #include "tests/support/scenes.h"
 
 namespace render {
 namespace {
 
-using Sum = std::vector<float> (*)(const Scene&, const DrawList&, const View&, Channels,
-                                   std::size_t, std::span<const float>, unsigned);
-class Extremes : public testing::TestWithParam<Sum> {
+class Extremes : public testing::Test {
  protected:
     static Scene allOf(const timeseries::SortedStep& step, const PlacedPoints& placed,
                        double opacity = 0.5) {
@@ -32,7 +29,7 @@ class Extremes : public testing::TestWithParam<Sum> {
                 .clip = {}};
     }
     std::vector<float> drawn(const Scene& scene, const View& view, Channels channels) const {
-        return GetParam()(scene, order(scene, pixelRays(view).eye), view, channels, 0, {}, 2);
+        return sumTiles(scene, order(scene, pixelRays(view).eye), view, channels, 0, {}, 2);
     }
     static std::vector<double> truth(const Scene& scene, const View& view, Channels channels) {
         Accumulator<double> sums(view.size, {channels});
@@ -48,7 +45,7 @@ class Extremes : public testing::TestWithParam<Sum> {
 
 // A column of points seen from its end: all fall on the same pixels. Each sum of floats may be off
 // by half a unit in its last place, 2^-25 of it, or less where they fall both ways.
-TEST_P(Extremes, CoincidentSplatsByTheHundredThousand) {
+TEST_F(Extremes, CoincidentSplatsByTheHundredThousand) {
     constexpr std::size_t kPoints = 1 << 18;
     const auto step = tests::noise(std::make_shared<timeseries::Grid>(
         std::array{tests::axis(1), tests::axis(kPoints), tests::axis(1)}));
@@ -60,7 +57,7 @@ TEST_P(Extremes, CoincidentSplatsByTheHundredThousand) {
         EXPECT_LE(error(allOf(step, placed, opacity), view, Channels::Over), most) << opacity;
 }
 
-TEST_P(Extremes, OpacitiesOfATenMillionthAndOfOne) {
+TEST_F(Extremes, OpacitiesOfATenMillionthAndOfOne) {
     const auto step = tests::noise(tests::cube(24));
     const PlacedPoints placed(step.grid());
     for (const glm::dvec3& eye : {glm::dvec3(1.3, -2.4, 0.9), glm::dvec3(0.2, 0.1, 0.3)})
@@ -71,7 +68,7 @@ TEST_P(Extremes, OpacitiesOfATenMillionthAndOfOne) {
                 << opacity << " from " << eye.x;
 }
 
-TEST_P(Extremes, SplatsThatFillTheScreen) {
+TEST_F(Extremes, SplatsThatFillTheScreen) {
     const auto step = tests::noise(tests::cube(5));
     const PlacedPoints placed(step.grid());
     Scene scene = allOf(step, placed, 0.1);
@@ -85,7 +82,7 @@ TEST_P(Extremes, SplatsThatFillTheScreen) {
 }
 
 // A thousandth of a pixel from each other, wherever between the pixels they lie.
-TEST_P(Extremes, SplatsFarBelowAPixelKeepTheirMass) {
+TEST_F(Extremes, SplatsFarBelowAPixelKeepTheirMass) {
     const auto step = tests::noise(tests::cube(12));
     const PlacedPoints placed(step.grid());
     const Scene scene = allOf(step, placed);
@@ -104,7 +101,7 @@ TEST_P(Extremes, SplatsFarBelowAPixelKeepTheirMass) {
 }
 
 // The same cells at 10^7 of their units, and of 10^-6 and 10^6 of them: the same picture.
-TEST_P(Extremes, CoordinatesAtTenMillionAndUnitsOfAMillionth) {
+TEST_F(Extremes, CoordinatesAtTenMillionAndUnitsOfAMillionth) {
     const auto at = [](double first, double step) {
         const auto axis = [&] { return tests::axis(16, first, step); };
         return tests::noise(std::make_shared<timeseries::Grid>(std::array{axis(), axis(), axis()}));
@@ -122,9 +119,6 @@ TEST_P(Extremes, CoordinatesAtTenMillionAndUnitsOfAMillionth) {
             << first << ' ' << step;
     }
 }
-
-INSTANTIATE_TEST_SUITE_P(By, Extremes, testing::Values(&sumTiles, &sumRows),
-                         [](const auto& by) { return by.index == 0 ? "Tiles" : "Rows"; });
 
 }  // namespace
 }  // namespace render

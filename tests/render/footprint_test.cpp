@@ -8,7 +8,7 @@
 
 #include "render/reference/cpu_splatter.h"
 #include "render/reference/image_compare.h"
-#include "render/splat/row_splatter.h"
+#include "render/splat/tile_splatter.h"
 #include "tests/support/scenes.h"
 
 namespace render {
@@ -186,7 +186,7 @@ TEST(SlimFootprint, EveryPixelHasANumber) {
             const glm::dvec3 eye =
                 2.5 * glm::normalize(glm::dvec3(any(random), any(random), any(random)));
             const View view = tests::lookFrom(eye, {200, 150}, 0.3);
-            for (const float w : sumRows(world.scene, Runs{}, view, Channels::Weight, 0, {}, 2))
+            for (const float w : sumTiles(world.scene, Runs{}, view, Channels::Weight, 0, {}, 2))
                 ASSERT_TRUE(std::isfinite(w)) << levels << " levels from " << eye.x << ' ' << eye.y;
         }
     }

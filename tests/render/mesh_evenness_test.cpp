@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "render/splat/row_splatter.h"
+#include "render/splat/tile_splatter.h"
 #include "tests/support/meshes.h"
 #include "tests/support/splat_world.h"
 #include "tests/support/unstructured.h"
@@ -200,8 +200,8 @@ TEST(MeshEvenness, OfAMeshThatMovesNowhereAreThoseOfOneThatStands) {
         EXPECT_GT(*std::ranges::max_element(drawn), 0);
         EXPECT_EQ(drawn, weights(evenOf(moving), view));
         const World a = evenOf(still), b = evenOf(moving);
-        EXPECT_EQ(sumRows(a.scene, Runs{}, view, Channels::Weight, 0, {}),
-                  sumRows(b.scene, Runs{}, view, Channels::Weight, 0, {}));
+        EXPECT_EQ(sumTiles(a.scene, Runs{}, view, Channels::Weight, 0, {}),
+                  sumTiles(b.scene, Runs{}, view, Channels::Weight, 0, {}));
     }
 }
 

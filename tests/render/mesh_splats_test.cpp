@@ -8,7 +8,6 @@
 
 #include "render/model/pick.h"
 #include "render/reference/exact_order.h"
-#include "render/splat/row_splatter.h"
 #include "render/splat/tile_splatter.h"
 #include "tests/support/meshes.h"
 #include "tests/support/splat_world.h"
@@ -150,17 +149,30 @@ TEST(MeshSplats, ARingLosesWhatTheFormulaSays) {
     }
 }
 
-TEST(MeshSplats, RowsSumColumnsOfFewLevelsAsTheTruthDoes) {
+TEST(MeshSplats, TilesSumColumnsOfFewLevelsAsTheTruthDoes) {
     const World world = worldOf(tests::columns({0, 1, 3}));
+    ASSERT_TRUE(world.placed.longCells());
     for (const auto& from : {glm::dvec3(1.5, -2, 1), {0.2, -0.3, 0.1}, {30, -40, 10}}) {
         const View view = tests::lookFrom(from, {120, 90}, 0.5);
-        const auto rows = sumRows(world.scene, Runs{}, view, Channels::Weight, 0, {});
-        expectAlike(weights(world, view), {rows.begin(), rows.end()}, 2e-5);
+        const auto tiles = sumTiles(world.scene, Runs{}, view, Channels::Weight, 0, {});
+        expectAlike(weights(world, view), {tiles.begin(), tiles.end()}, 1e-5);
     }
-    EXPECT_FALSE(TileSum::canSum(world.scene, Channels::Weight));
 }
 
-TEST(MeshSplats, RowsAndTilesSumWhatTheTruthDoes) {
+// The same whole pixels as the truth has.
+TEST(MeshSplats, TilesSumPointsOfWholePixels) {
+    for (const double size : {1.0, 3.0}) {
+        const World world = worldOf(tests::twisted(), {Kernel::Point, size});
+        const View view = tests::lookFrom({1.5, -2, 1}, {120, 90}, 0.5);
+        for (const unsigned threads : {1u, 3u}) {
+            const auto tiles =
+                sumTiles(world.scene, Runs{}, view, Channels::Weight, 0, {}, threads);
+            expectAlike(weights(world, view), {tiles.begin(), tiles.end()}, 1e-5);
+        }
+    }
+}
+
+TEST(MeshSplats, TilesSumWhatTheTruthDoes) {
     for (const auto& [from, size] : {std::pair(glm::dvec3(1.5, -2, 1), 1.0),
                                      {glm::dvec3(0.2, -0.3, 0.1), 1.0},
                                      {glm::dvec3(30, -40, 10), 1.0},
@@ -169,9 +181,6 @@ TEST(MeshSplats, RowsAndTilesSumWhatTheTruthDoes) {
         const View view = tests::lookFrom(from, {120, 90}, 0.5);
         const auto truth = weights(world, view);
         for (const unsigned threads : {1u, 3u}) {
-            const auto rows = sumRows(world.scene, Runs{}, view, Channels::Weight, 0, {}, threads);
-            expectAlike(truth, {rows.begin(), rows.end()}, 2e-5);
-            ASSERT_TRUE(TileSum::canSum(world.scene, Channels::Weight));
             const auto tiles =
                 sumTiles(world.scene, Runs{}, view, Channels::Weight, 0, {}, threads);
             expectAlike(truth, {tiles.begin(), tiles.end()}, 1e-5);

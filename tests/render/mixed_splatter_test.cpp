@@ -92,6 +92,15 @@ TEST(MixedSum, OfPointsThatLieOneByOneToo) {
     expectOneOverTheOther(world, {3, 0.4, 0.5});
 }
 
+TEST(MixedSum, OfSplatsThatEndAtTheFacesToo) {
+    const auto grid = std::make_shared<const timeseries::Grid>(
+        std::array{tests::axis(12), tests::axis(12), tests::axis(3, 0, 8)});
+    CellWorld world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
+                    {"1.5:3.2", "8:9"}, 0.6);
+    ASSERT_TRUE(world.placed.longCells());
+    expectOneOverTheOther(world, {3, 0.4, 0.5});
+}
+
 // A point between the cells of a layer that fills all: those before it hide it, those behind not.
 TEST(MixedSum, APointIsAmongTheCellsAboutIt) {
     const auto grid = tests::cube(9);

@@ -1,4 +1,4 @@
-// Noise in a plane that is summed by rows or by tiles.
+// Noise in a plane that is summed.
 #pragma once
 
 #include <gtest/gtest.h>

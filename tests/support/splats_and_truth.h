@@ -10,7 +10,6 @@
 #include "render/reference/exact_order.h"
 #include "render/reference/image_compare.h"
 #include "render/splat/depth_order.h"
-#include "render/splat/row_splatter.h"
 #include "render/splat/tile_splatter.h"
 #include "tests/support/gl_planes.h"
 
@@ -43,9 +42,7 @@ inline std::vector<double> truth(const Scene& scene, const View& view, Channels 
 
 // Of a plane, nothing opaque before it.
 inline std::vector<float> onProcessor(const Scene& scene, const View& view, Channels channels) {
-    const DrawList list = order(scene, tests::kMidEye);
-    if (TileSum::canSum(scene, channels)) return sumTiles(scene, list, view, channels, 0, {});
-    return sumRows(scene, list, view, channels, 0, {});
+    return sumTiles(scene, order(scene, tests::kMidEye), view, channels, 0, {});
 }
 
 // relative L2 of a plane drawn on GL, or summed on the processor where that is worse.
