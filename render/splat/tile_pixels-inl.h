@@ -93,7 +93,7 @@ struct LayUnder {
 
 // The footprints that q = n / d has: of even splats d is the ray's; of splats that are narrow
 // beside their distance it is so near 1 that a series tells 1 / sqrt(d) as well as floats can.
-// Cut: of any that ends at a face.
+// Cut: of any that may end at a face, and is slim.
 enum class Form { Even, Narrow, Any, Cut };
 constexpr float kNarrow = 1.0f / 32;  // |d - 1|, at most: what is left out is below 3e-7
 
@@ -131,6 +131,43 @@ HWY_INLINE V insideShare(Lanes lanes, const SplatCut& cut, V ox, V oy, V rest) {
                                       alongRay(lanes, hn::Mul(first, perHalf))));
 }
 
+// Of a splat's box in a tile, the pixels [first, last) of each row that it may touch: few, of a
+// large one that is slim.
+struct RowSpans {
+    static constexpr std::size_t kRows = 64;
+    alignas(64) std::int32_t first[kRows], last[kRows];
+};
+// False where that is not worth asking.
+HWY_INLINE bool findSpans(const Batch& b, std::size_t k, RowSpans& spans) {
+    const Floats floats;
+    const F columns = f(static_cast<float>(b.columns[k]));
+    const float along = b.nxx[k] - b.dxx[k];
+    constexpr int kSmall = 2 * static_cast<int>(kLanes);
+    if (b.columns[k] <= kSmall || !(along > 1e-3f * b.nxx[k])) return false;
+    const F steps = hn::ConvertTo(floats, hn::Iota(Ints(), 0));
+    for (int row = 0; row < b.rows[k]; row += static_cast<int>(kLanes)) {
+        // Where n - d <= 0; a pixel more on both sides for rounding.
+        const F y = hn::Add(f(b.oy[k] + static_cast<float>(row)), steps);
+        const F half = hn::Mul(f(0.5f), hn::Sub(hn::Mul(f(b.nxy[k] - b.dxy[k]), y), f(b.lx[k])));
+        const F rest =
+            hn::Sub(hn::Mul(hn::Sub(hn::Mul(f(b.nyy[k] - b.dyy[k]), y), f(b.ly[k])), y), f(1));
+        const F root =
+            hn::Sqrt(hn::Max(hn::NegMulAdd(f(along), rest, hn::Mul(half, half)), hn::Zero(floats)));
+        const F per = f(1 / along);
+        const auto pixel = [&](F end) HWY_ATTR {
+            return hn::Sub(hn::Mul(hn::Sub(end, half), per), f(b.ox[k]));
+        };
+        const auto within = [&](F at) HWY_ATTR {
+            return hn::Min(hn::Max(at, hn::Zero(floats)), columns);
+        };
+        const F first = within(hn::Sub(hn::Floor(pixel(hn::Neg(root))), f(1)));
+        const F last = within(hn::Add(hn::Ceil(pixel(root)), f(2)));
+        hn::Store(hn::ConvertTo(Ints(), first), Ints(), spans.first + row);
+        hn::Store(hn::ConvertTo(Ints(), last), Ints(), spans.last + row);
+    }
+    return true;
+}
+
 // What of a splat's weight the pixels of its box take: (1 - q)^4, / sqrt(d) where it is not even,
 // its share before a face, nothing where the opaque scene hides it, and exactly nothing beside the
 // footprint.
@@ -148,6 +185,8 @@ HWY_INLINE void forPixels(Lanes lanes, const Batch& b, std::size_t k, const Tile
     const int columns = b.columns[k], rows = b.rows[k];
     const float* HWY_RESTRICT perRay2 = room.perRay2.data();
     const float* HWY_RESTRICT opaque = room.opaque.data();
+    RowSpans spans;
+    const bool hasSpans = kForm == Form::Cut && findSpans(b, k, spans);
     for (int i = 0; i < columns; i += kStep) {
         const V ox = hn::Add(hn::Set(lanes, b.ox[k] + static_cast<float>(i)), steps);
         const V n0 = hn::Mul(hn::Mul(hn::Set(lanes, b.nxx[k]), ox), ox);
@@ -160,6 +199,7 @@ HWY_INLINE void forPixels(Lanes lanes, const Batch& b, std::size_t k, const Tile
         auto at = static_cast<std::size_t>(b.y[k] * kTileStride + b.x[k] + i);
         V oy = hn::Set(lanes, b.oy[k]);
         for (int row = 0; row < rows; ++row, at += kTileStride, oy = hn::Add(oy, one)) {
+            if (hasSpans && (i >= spans.last[row] || i + kStep <= spans.first[row])) continue;
             const V n = hn::MulAdd(hn::MulAdd(nyy, oy, n1), oy, n0);
             V t;
             if constexpr (kForm == Form::Even) {
@@ -182,7 +222,8 @@ HWY_INLINE void forPixels(Lanes lanes, const Batch& b, std::size_t k, const Tile
                 if constexpr (kForm == Form::Cut) {
                     some = hn::And(some, hn::Gt(rest, zero));
                     if (hn::AllFalse(lanes, some)) continue;
-                    t = hn::Mul(t, insideShare(lanes, *b.cut[k], ox, oy, rest));
+                    if (b.cut[k]->depth > 0)
+                        t = hn::Mul(t, insideShare(lanes, *b.cut[k], ox, oy, rest));
                 }
                 if constexpr (kForm != Form::Narrow) t = hn::IfThenElseZero(some, t);
             }
@@ -224,14 +265,13 @@ HWY_INLINE void addSplat(Lanes lanes, const Batch& b, std::size_t k, TileRoom& r
                          const Sink& sink) {
     if constexpr (kShape == Shape::Square)
         return forSquare(lanes, b, k, room, b.depth[k] > room.nearestOpaque, sink);
-    else if constexpr (!isUneven(kShape))
+    else if constexpr (kShape == Shape::Cut)
+        return addForm<Form::Cut>(lanes, b, k, room, sink);
+    else if constexpr (kShape != Shape::Uneven)
         return addForm<Form::Even>(lanes, b, k, room, sink);
-    else {
-        if constexpr (kShape == Shape::Cut)
-            if (b.cut[k]->depth > 0) return addForm<Form::Cut>(lanes, b, k, room, sink);
+    else
         return b.change[k] <= kNarrow ? addForm<Form::Narrow>(lanes, b, k, room, sink)
                                       : addForm<Form::Any>(lanes, b, k, room, sink);
-    }
 }
 
 template <Channels kChannels, Shape kShape, class Lanes>
