@@ -47,7 +47,7 @@ int cache(const CacheOptions& options) {
     const auto store = stepCache();
     if (!store) {
         say("No sorted steps are kept: {}\n",
-            options.cache == "off" ? "the cache is off" : "there is no home folder");
+            options.cache == "off" ? "the cache is off" : whyNoStepCache());
         return 0;
     }
     if (options.action == CacheOptions::Action::List)

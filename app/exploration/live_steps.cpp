@@ -54,7 +54,8 @@ LiveSteps::LiveSteps(OpenDataset& dataset, const timeseries::RangeSet& kept,
       wake_(std::move(wake)),
       loader_(std::make_unique<timeseries::StepLoader>(std::move(dataset.reader),
                                                        dataset.variableIndex, kept, wake_,
-                                                       timeseries::Ready::Whole, stores_)) {}
+                                                       timeseries::Ready::Whole, stores_)),
+      whyNotKept_(whyNoStepCache()) {}
 
 LiveSteps::~LiveSteps() {
     endElsewhere(std::move(loader_), std::move(series_), std::move(leaving_),
@@ -79,6 +80,9 @@ std::vector<LiveSteps::Arrival> LiveSteps::poll() {
             const auto& loaded = std::get<timeseries::Loaded>(*result);
             for (auto& left : series_.loaded(loaded.step, loaded.sorted))
                 leaving_.push_back(std::move(left));
+            if (!whyNotKept_.empty() && !series_.isStored(loaded.step) &&
+                loaded.sorted->size() >= stores_.worthWriting)
+                notes_.push_back("sorted steps are not kept: " + std::exchange(whyNotKept_, {}));
             arrivals.push_back({loaded.step, loaded.sorted});
         }
     }
@@ -125,7 +129,7 @@ void LiveSteps::freeLeaving() {
 }
 
 std::vector<std::string> LiveSteps::takeNotes() {
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = std::exchange(notes_, {});
     for (const auto& store : stores_.read)
         for (std::string& note : store->takeNotes()) notes.push_back(std::move(note));
     return notes;

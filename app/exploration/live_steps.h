@@ -71,6 +71,8 @@ class LiveSteps {
         std::future<std::shared_ptr<const timeseries::SortedStep>> made;
     };
     std::optional<Reopening> reopening_;
+    std::string whyNotKept_;  // what is sorted; until it is told
+    std::vector<std::string> notes_;
     std::vector<std::size_t> wished_;
     timeseries::RangeSet looked_;
     std::size_t seenBelow_ = 0;  // all steps before it are seen, or failed

@@ -48,6 +48,15 @@ std::shared_ptr<StepStore> stepCache() {
     return chosen().store;
 }
 
+std::string whyNoStepCache() {
+    const bool isOff = [] {
+        const std::lock_guard lock(chosen().mutex);
+        return chosen().choice == "off";
+    }();
+    if (isOff || stepCache()) return "";
+    return "neither XDG_CACHE_HOME nor HOME names a folder; --cache DIR does";
+}
+
 fs::path folderBeside(std::span<const fs::path> files) {
     return fs::absolute(files.front()).parent_path() / "isochron-index";
 }

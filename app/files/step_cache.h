@@ -19,6 +19,8 @@ void chooseStepCache(const std::string& choice, std::optional<std::uint64_t> bud
 
 // Null where it is off, or nothing can be kept.
 std::shared_ptr<timeseries::StepStore> stepCache();
+// Why there is none, though nobody has switched it off; empty where there is one.
+std::string whyNoStepCache();
 // The folder of indices that lies beside these files and moves with them. REQUIRES: one at least.
 std::filesystem::path folderBeside(std::span<const std::filesystem::path> files);
 std::shared_ptr<timeseries::StepStore> storeBeside(std::span<const std::filesystem::path> files);

@@ -1,5 +1,7 @@
 #include "app/exploration/live_steps.h"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -10,6 +12,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 #include "tests/support/scripted_reader.h"
+#include "tests/support/variable.h"
 #include "timeseries/index/step_file.h"
 #include "timeseries/readers/step_about.h"
 #include "timeseries/series/whole_file.h"
@@ -122,14 +125,45 @@ TEST(LiveSteps, ManyStepsOnDiskComeInAFrame) {
     EXPECT_TRUE(steps.series().isStored(150));
 }
 
-// Of eight million points, whose file is settled.
+// Of eight million points, as many as are worth keeping, or a few fewer.
+void writeField(const std::filesystem::path& file, std::size_t edge) {
+    std::string bytes(edge * edge * edge, '\0');
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i % 101);
+    tests::writeBytes(file, fmt::format("NRRD0004\ntype: uchar\ndimension: 3\nsizes: {0} {0} {0}\n"
+                                        "encoding: raw\n\n",
+                                        edge) +
+                                bytes);
+}
+
+TEST(LiveSteps, WhereNothingCanBeKeptThatIsToldOnce) {
+    const tests::Variable cache("XDG_CACHE_HOME", std::nullopt), home("HOME", std::nullopt);
+    const auto notesOf = [](std::size_t edge, const char* choice) {
+        const std::filesystem::path file = tests::freshFolder() / "f.nrrd";
+        writeField(file, edge);
+        chooseStepCache(choice);
+        OpenDataset dataset = openDataset(std::vector{file}, "");
+        std::counting_semaphore<> came{0};
+        LiveSteps steps(dataset, timeseries::RangeSet::everything(), std::uint64_t{1} << 30,
+                        [&] { came.release(); });
+        steps.want({0});
+        EXPECT_TRUE(came.try_acquire_for(std::chrono::seconds(60)));
+        EXPECT_EQ(steps.poll().size(), 1u);
+        const std::vector<std::string> notes = steps.takeNotes();
+        EXPECT_TRUE(steps.takeNotes().empty());
+        chooseStepCache("");
+        return notes;
+    };
+    EXPECT_THAT(
+        notesOf(200, ""),
+        testing::ElementsAre(testing::HasSubstr("neither XDG_CACHE_HOME nor HOME names a folder")));
+    EXPECT_THAT(notesOf(199, ""), testing::IsEmpty()) << "too small to be kept anywhere";
+    EXPECT_THAT(notesOf(200, "off"), testing::IsEmpty());
+}
+
+// Whose file is settled.
 TEST(LiveSteps, WhatAWindowSortedIsOpenedTheNextTime) {
     const std::filesystem::path folder = tests::freshFolder(), file = folder / "f.nrrd";
-    constexpr std::size_t kEdge = 200;
-    std::string bytes(kEdge * kEdge * kEdge, '\0');
-    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i % 101);
-    tests::writeBytes(
-        file, "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 200 200 200\nencoding: raw\n\n" + bytes);
+    writeField(file, 200);
     struct Cache {
         explicit Cache(const std::filesystem::path& in) { chooseStepCache(in.string()); }
         ~Cache() { chooseStepCache(""); }
