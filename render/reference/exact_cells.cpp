@@ -44,8 +44,8 @@ PlanePixels counts(const Scene& scene, const View& view, const OpaqueDepths& opa
             for (const PartInLayer& each : parts[i])
                 if (each.part.from < opaque.at(some[i])) passed.emplace_back(each.layer, each.cell);
             std::ranges::sort(passed);
-            const auto again = std::ranges::unique(passed);
-            plane[first + i] = static_cast<float>(passed.size() - again.size());
+            const auto again = std::unique(passed.begin(), passed.end());
+            plane[first + i] = static_cast<float>(again - passed.begin());
         }
     }
     return plane;
