@@ -25,7 +25,7 @@ FILTERS = {
     "index": ["--benchmark_filter=^(build|select|count)", "--benchmark_repetitions=3",
               "--benchmark_report_aggregates_only=true"],
     "stages": ["--benchmark_filter=^stage"],
-    "draw": ["--benchmark_filter=^(BM_[^F]|costFollows|tiles)"],
+    "draw": ["--benchmark_filter=^(BM_[^F]|costFollows)"],
     "cells": ["--benchmark_filter=^(cell|tets|gradients)"],
     "foretold": ["--benchmark_filter=^BM_ForetoldFrame"],
     "meshes": ["--benchmark_filter=^mesh"],
