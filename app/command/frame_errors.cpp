@@ -21,7 +21,7 @@ using timeseries::SortedStep;
 
 // Of what is drawn as the truth itself.
 constexpr std::string_view kTruth =
-    "drawn as the field is between its points, exact along each of 16 rays a pixel";
+    "drawn as the field is between its points, along 16 rays a pixel";
 
 bool drawsTruth(const RenderOptions& options, const Explorer& explorer) {
     return options.by.splatter == render::SplatterChoice::Exact &&
@@ -44,7 +44,6 @@ FrameError errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& st
         return error;
     }
     if (isTruth) {
-        error.depth = 0;
         error.text = kTruth;
         return error;
     }
@@ -134,6 +133,8 @@ const FrameError& FrameErrors::of(const FrameAt& frame, const SortedStep& step) 
 }
 
 void FrameErrors::tell(bool saysNothing) const {
+    if (std::ranges::any_of(errors_, [](const FrameError& e) { return e.text == kTruth; }))
+        return say("  {}\n", kTruth);
     if (errors_.size() > 1) return tellEach(saysNothing);
     const FrameError& error = errors_.front();
     if (!error.text.empty() || (!error.whyNone.empty() && !saysNothing)) tellMiddle();
@@ -147,7 +148,7 @@ void FrameErrors::tellMiddle() const {
     const FrameError& error = errors_.front();
     const std::size_t others = frames_.size() - 1;
     if (!error.whyNone.empty()) return say("  error not known: {}\n", error.whyNone);
-    if (others == 0 || isTruth_) return say("  {}\n", error.text);
+    if (others == 0) return say("  {}\n", error.text);
     say("  {} in {}; {}\n", error.text, fileOf(error.of, explorer_),
         others == 1
             ? "the other picture's is not known: --each-error works it out"

@@ -81,6 +81,7 @@ std::vector<LiveSteps::Arrival> LiveSteps::poll() {
             for (auto& left : series_.loaded(loaded.step, loaded.sorted))
                 leaving_.push_back(std::move(left));
             if (!whyNotKept_.empty() && !series_.isStored(loaded.step) &&
+                loaded.sorted->kept() == timeseries::RangeSet::everything() &&
                 loaded.sorted->size() >= stores_.worthWriting)
                 notes_.push_back("sorted steps are not kept: " + std::exchange(whyNotKept_, {}));
             arrivals.push_back({loaded.step, loaded.sorted});

@@ -17,7 +17,9 @@ double cellPixels(const Scene& scene, const View& view) {
 
 int raysAcross(const Scene& scene, const View& view) {
     const double rays = std::ceil(kRaysACell / view.across / std::sqrt(cellPixels(scene, view)));
-    return static_cast<int>(std::clamp<double>(rays, 1, kMostRaysAcross));
+    // So that a picture's rays have 16 bits along each side (render/splat/seen_splat.h).
+    const int most = std::min(kMostRaysAcross, 65535 / std::max({view.size.x, view.size.y, 1}));
+    return static_cast<int>(std::clamp<double>(rays, 1, std::max(most, 1)));
 }
 
 }  // namespace render

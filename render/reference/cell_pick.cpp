@@ -61,7 +61,8 @@ std::vector<PassedTet> tetsOnRay(const Scene& scene, const View& view, const glm
         scene, scene.cells->field(), seen, PixelBins(std::span(&pixel, 1), view.size),
         sharingThreads(), OpacityPer::Length,
         [&](std::size_t part, std::uint32_t cell, const MeshCells::Tetrahedron& tet,
-            const TetSplat<double>& s, std::size_t layer, std::size_t) {
+            const TetSplat<double>& s, const timeseries::Interval<double>&, std::size_t layer,
+            std::size_t) {
             if (const auto in = partOnRay(seen, s, window))
                 parts[part].push_back(
                     {partInLayer(scene, layer, cell, *in, perDepth),

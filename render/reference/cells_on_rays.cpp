@@ -22,7 +22,8 @@ std::vector<double> tetDepthAt(const Scene& scene, const View& view,
     forEachTetSplat(
         scene, scene.cells->field(), seen, bins, threads, scene.opacityPer,
         [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron&,
-            const TetSplat<double>& s, std::size_t layer, std::size_t pixel) {
+            const TetSplat<double>& s, const timeseries::Interval<double>&, std::size_t layer,
+            std::size_t pixel) {
             const glm::dvec2 offset = glm::dvec2(pixels[pixel]) + 0.5 - seen.rays.centre;
             parts[part][pixel] += opticalDepthPerWeight(scene.layers[layer].style.opacity) *
                                   fragmentOn<double>(seen, s, offset - s.centre, kNever).weight;

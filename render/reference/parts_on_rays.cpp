@@ -35,7 +35,8 @@ void addPartsOfMesh(const Scene& scene, const timeseries::Field& field, const Vi
     forEachTetSplat(
         scene, field, seen, PixelBins(pixels, view.size), threads, OpacityPer::Length,
         [&](std::size_t part, std::uint32_t cell, const MeshCells::Tetrahedron&,
-            const TetSplat<double>& s, std::size_t layer, std::size_t pixel) {
+            const TetSplat<double>& s, const timeseries::Interval<double>&, std::size_t layer,
+            std::size_t pixel) {
             const glm::dvec2 window = glm::dvec2(pixels[pixel]) + 0.5;
             if (const auto in = partOnRay(seen, s, window))
                 found[part].push_back(

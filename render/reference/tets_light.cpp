@@ -36,6 +36,16 @@ std::array<glm::dvec3, 2> gradientsOn(const PointsView& view, const TetSplat<dou
     return {at(part.from), at(part.to)};
 }
 
+// With the values that have its colours: what stands for a thin range was widened.
+PartOnRay ofItsColors(const TetSplat<double>& s, const timeseries::Interval<double>& range,
+                      PartOnRay part) {
+    const cell::ColoredField field = cell::coloredField(s, range);
+    for (double* value : {&part.begin, &part.end})
+        if (s.extent > 0)
+            *value = field.reference + field.extent * ((*value - s.reference) / s.extent);
+    return part;
+}
+
 std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& field,
                                  const PointsView& seen, glm::ivec2 size,
                                  std::span<const glm::ivec2> pixels,
@@ -48,7 +58,8 @@ std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& fi
         scene, field, seen, PixelBins(pixels, size), threads,
         scene.cells ? scene.opacityPer : OpacityPer::Length,
         [&](std::size_t part, std::uint32_t, const MeshCells::Tetrahedron& tet,
-            const TetSplat<double>& s, std::size_t layer, std::size_t pixel) {
+            const TetSplat<double>& s, const timeseries::Interval<double>& range, std::size_t layer,
+            std::size_t pixel) {
             const double perWeight = opticalDepthPerWeight(scene.layers[layer].style.opacity);
             const auto gradients =
                 tet::gradientsOf(s, scene.gradients ? &tet.gradients : nullptr, unit);
@@ -57,9 +68,10 @@ std::vector<PassedPart> passedBy(const Scene& scene, const timeseries::Field& fi
                 const auto in = partOnRay(seen, s, window, opaque.at(pixels[pixel]));
                 if (!in) continue;
                 const double weight = passageOf(s, *in, lengthPerDepth(seen, window));
+                const PartOnRay colored = ofItsColors(s, range, *in);
                 parts[part].push_back({static_cast<std::uint32_t>(pixel * places.size() + ray),
                                        {.layer = static_cast<std::uint32_t>(layer),
-                                        .part = *in,
+                                        .part = colored,
                                         .opticalDepth = perWeight * weight,
                                         .gradients = gradientsOn(seen, s, gradients, window, *in),
                                         .steepness = s.extent > 0 ? steepness / s.extent : 0}});

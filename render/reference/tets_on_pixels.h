@@ -123,8 +123,8 @@ void forEachTetBefore(const Scene& scene, const timeseries::Field& field, const 
     });
 }
 
-// use(part, cell, tet, seen, layer, pixel) for each pixel that may see one of those, and each range
-// of the layer in which it is seen.
+// use(part, cell, tet, seen, range, layer, pixel) for each pixel that may see one of those, and
+// each range of the layer in which it is seen.
 template <typename Use>
 void forEachTetSplat(const Scene& scene, const timeseries::Field& field, const PointsView& view,
                      const PixelBins& pixels, unsigned threads, OpacityPer opacityPer,
@@ -138,7 +138,8 @@ void forEachTetSplat(const Scene& scene, const timeseries::Field& field, const P
                                  if (!seen)
                                      seen = tetSplatAt<double>(view, {tet.at, tet.values, range.lo,
                                                                       range.hi, opacityPer});
-                                 if (seen->visible) use(part, cell, tet, *seen, layer, pixel);
+                                 if (seen->visible)
+                                     use(part, cell, tet, *seen, range, layer, pixel);
                              });
                          }
                      });

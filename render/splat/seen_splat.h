@@ -16,12 +16,14 @@ namespace render {
 struct Scene;
 struct TileView;
 
-// A line of the caches. The forms are those of Splat in render/model/footprint.h.
+// A line of the caches. The forms are those of Splat in render/model/footprint.h; where splats end
+// at the domain's faces, of (x + m y, y), with n = n[0] (x + m y)^2 + n[2] y^2 and m = n[1]: of a
+// slim one the other's terms cancel.
 struct alignas(64) SeenSplat {
     // The pixel that the centre lies in, from the corner of the layout's box, and where in it.
     std::array<std::int32_t, 2> pixel;
     std::array<float, 2> within;
-    std::uint32_t columns, rows;  // [first, last) in the box, below 2^15: first + 2^16 last
+    std::uint32_t columns, rows;  // [first, last) in the box, below 2^16: first + 2^16 last
     float weight, depth;          // depth in the depth buffer
     std::array<float, 3> n, d;
     std::array<float, 2> l;

@@ -11,6 +11,15 @@
 namespace render {
 namespace {
 
+// The forms in (x + m y, y).
+void slant(Splat<double>& s) {
+    if (!(s.n.x > 0)) return;
+    const double m = s.n.y / (2 * s.n.x);
+    s.n = {s.n.x, m, std::max(s.n.z - s.n.x * m * m, 0.0)};
+    s.d = {s.d.x, s.d.y - 2 * s.d.x * m, s.d.z + (s.d.x * m - s.d.y) * m};
+    s.l.y -= s.l.x * m;
+}
+
 SeenSplat seenSplat(const TileView& view, const Splat<double>& s, double windowDepth) {
     constexpr double kFarthest = 1e9;  // pixels: nothing beyond is in any picture
     SeenSplat seen{.pixel = {},
@@ -39,7 +48,7 @@ void seeOneByOne(const Scene& scene, const TileView& view, std::span<const std::
     for (std::size_t i = 0; i < index.size(); ++i) {
         spans[i] = {};
         if (!scene.placed.inside(index[i], scene.clip)) continue;
-        const auto s = splatAt<double>(*view.oneByOne, index[i], footprint);
+        auto s = splatAt<double>(*view.oneByOne, index[i], footprint);
         if (!s.visible) continue;
         const double windowDepth = view.depthA / s.depth + view.depthB;
         if (windowDepth > 1) continue;
@@ -49,6 +58,7 @@ void seeOneByOne(const Scene& scene, const TileView& view, std::span<const std::
         };
         const PixelSpan x = spanOf(0), y = spanOf(1);
         if (x.first >= x.last || y.first >= y.last) continue;
+        if (view.endsAtFaces) slant(s);
         splats[i] = seenSplat(view, s, windowDepth);
         const auto both = [](const PixelSpan& span) {
             return static_cast<std::uint32_t>(span.first) | static_cast<std::uint32_t>(span.last)

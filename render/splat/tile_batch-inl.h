@@ -36,8 +36,9 @@ HWY_INLINE F volume(const TileView& view, const Points& p) {
     return hn::Mul(hn::Mul(sides[0], sides[1]), sides[2]);
 }
 
-// How far from 1 an uneven splat's d comes on its pixels and on those that make a vector whole.
-HWY_INLINE void setUpChange(Batch& out) {
+// How far from 1 an uneven splat's d comes on its pixels and on those that make a vector whole;
+// slanted: of forms in (x + m y, y).
+HWY_INLINE void setUpChange(bool slanted, Batch& out) {
     const Floats floats;
     constexpr float kBeside = 16;
     const auto of = [&](const float* v) HWY_ATTR { return hn::Load(floats, v); };
@@ -46,7 +47,9 @@ HWY_INLINE void setUpChange(Batch& out) {
         const F last = hn::Add(of(first), hn::ConvertTo(floats, hn::Load(Ints(), count)));
         return hn::Max(hn::Abs(of(first)), hn::Abs(hn::Add(last, f(beside))));
     };
-    const F x = farthest(out.ox, out.columns, kBeside), y = farthest(out.oy, out.rows, 0);
+    const F y = farthest(out.oy, out.rows, 0);
+    F x = farthest(out.ox, out.columns, kBeside);
+    if (slanted) x = hn::MulAdd(hn::Abs(of(out.nxy)), y, x);
     const F alongX = hn::Mul(x, hn::MulAdd(x, of(out.dxx), hn::Abs(of(out.lx))));
     const F alongY = hn::Mul(y, hn::MulAdd(y, of(out.dyy), hn::Abs(of(out.ly))));
     const F both = hn::Mul(hn::Mul(x, y), hn::Abs(of(out.dxy)));
@@ -57,13 +60,13 @@ HWY_INLINE void keepForm(const F* n, Batch& out) {
     float* const to[] = {out.nxx, out.nxy, out.nyy};
     for (std::size_t i = 0; i < 3; ++i) hn::Store(n[i], Floats(), to[i]);
 }
-HWY_INLINE void keepForms(const Forms& forms, Batch& out) {
+HWY_INLINE void keepForms(const Forms& forms, bool slanted, Batch& out) {
     keepForm(forms.n, out);
     float* const d[] = {out.dxx, out.dxy, out.dyy};
     for (std::size_t i = 0; i < 3; ++i) hn::Store(forms.d[i], Floats(), d[i]);
     hn::Store(forms.l[0], Floats(), out.lx);
     hn::Store(forms.l[1], Floats(), out.ly);
-    setUpChange(out);
+    setUpChange(slanted, out);
 }
 
 // Where the ray is that much of them, of even splats. Returns what they weigh.
@@ -94,7 +97,7 @@ HWY_INLINE F setUpUneven(const TileView& view, const Points& p, Batch& out) {
         y[a] = hn::Mul(f(view.perPixelY[a]), perSemiAxis);
     }
     const Forms forms = formsOf(c, x, y, p.depth);
-    keepForms(forms, out);
+    keepForms(forms, false, out);
     return hn::Mul(weight, hn::Sqrt(forms.perC2));
 }
 
@@ -163,7 +166,8 @@ HWY_INLINE void takeSeen(const TileView& view, const std::uint32_t* index, glm::
         };
         const I span = k ? rows : columns;
         const I first = within(hn::And(span, hn::Set(ints, 0xffff)));
-        const I last = within(hn::ShiftRight<16>(span));
+        const hn::RebindToUnsigned<Ints> words;  // 2^15 has the sign's bit
+        const I last = within(hn::BitCast(ints, hn::ShiftRight<16>(hn::BitCast(words, span))));
         hn::Store(first, ints, begin[k]);
         hn::Store(hn::Sub(last, first), ints, count[k]);
         const F centre =
@@ -176,7 +180,7 @@ HWY_INLINE void takeSeen(const TileView& view, const std::uint32_t* index, glm::
     for (std::size_t i = 0; i < 3; ++i) forms.n[i] = record[kSeenN + i];
     for (std::size_t i = 0; i < 3; ++i) forms.d[i] = record[kSeenD + i];
     for (std::size_t i = 0; i < 2; ++i) forms.l[i] = record[kSeenL + i];
-    keepForms(forms, out);
+    keepForms(forms, view.endsAtFaces, out);
     hn::Store(record[kSeenWeight], floats, out.weight);
     hn::Store(record[kSeenDepth], floats, out.depth);
 }

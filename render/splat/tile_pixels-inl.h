@@ -148,14 +148,15 @@ HWY_INLINE bool findSpans(const Batch& b, std::size_t k, RowSpans& spans) {
     for (int row = 0; row < b.rows[k]; row += static_cast<int>(kLanes)) {
         // Where n - d <= 0; a pixel more on both sides for rounding.
         const F y = hn::Add(f(b.oy[k] + static_cast<float>(row)), steps);
-        const F half = hn::Mul(f(0.5f), hn::Sub(hn::Mul(f(b.nxy[k] - b.dxy[k]), y), f(b.lx[k])));
+        const F half = hn::Mul(f(-0.5f), hn::MulAdd(f(b.dxy[k]), y, f(b.lx[k])));
         const F rest =
             hn::Sub(hn::Mul(hn::Sub(hn::Mul(f(b.nyy[k] - b.dyy[k]), y), f(b.ly[k])), y), f(1));
         const F root =
             hn::Sqrt(hn::Max(hn::NegMulAdd(f(along), rest, hn::Mul(half, half)), hn::Zero(floats)));
         const F per = f(1 / along);
         const auto pixel = [&](F end) HWY_ATTR {
-            return hn::Sub(hn::Mul(hn::Sub(end, half), per), f(b.ox[k]));
+            return hn::NegMulAdd(f(b.nxy[k]), y,
+                                 hn::Sub(hn::Mul(hn::Sub(end, half), per), f(b.ox[k])));
         };
         const auto within = [&](F at) HWY_ATTR {
             return hn::Min(hn::Max(at, hn::Zero(floats)), columns);
@@ -200,14 +201,23 @@ HWY_INLINE void forPixels(Lanes lanes, const Batch& b, std::size_t k, const Tile
         V oy = hn::Set(lanes, b.oy[k]);
         for (int row = 0; row < rows; ++row, at += kTileStride, oy = hn::Add(oy, one)) {
             if (hasSpans && (i >= spans.last[row] || i + kStep <= spans.first[row])) continue;
-            const V n = hn::MulAdd(hn::MulAdd(nyy, oy, n1), oy, n0);
+            V n, e = zero;
+            if constexpr (kForm == Form::Cut) {
+                const V u = hn::MulAdd(set(b.nxy[k]), oy, ox);
+                n = hn::MulAdd(hn::Mul(set(b.nxx[k]), u), u, hn::Mul(hn::Mul(nyy, oy), oy));
+                e = hn::MulAdd(hn::MulAdd(dyy, oy, hn::MulAdd(set(b.dxy[k]), u, set(b.ly[k]))), oy,
+                               hn::Mul(hn::MulAdd(set(b.dxx[k]), u, set(b.lx[k])), u));
+            } else {
+                n = hn::MulAdd(hn::MulAdd(nyy, oy, n1), oy, n0);
+                if constexpr (kForm != Form::Even) e = hn::MulAdd(hn::MulAdd(dyy, oy, e1), oy, e0);
+            }
             V t;
             if constexpr (kForm == Form::Even) {
                 t = hn::Max(hn::NegMulAdd(n, hn::LoadU(lanes, perRay2 + at), one), zero);
                 t = hn::Mul(t, t);
                 t = hn::Mul(t, t);
             } else {
-                const V e = hn::MulAdd(hn::MulAdd(dyy, oy, e1), oy, e0), d = hn::Add(e, one);
+                const V d = hn::Add(e, one);
                 V root;
                 if constexpr (kForm == Form::Narrow)
                     root = hn::MulAdd(
@@ -215,7 +225,9 @@ HWY_INLINE void forPixels(Lanes lanes, const Batch& b, std::size_t k, const Tile
                         one);
                 else
                     root = reciprocalRoot(lanes, hn::Max(d, least));
-                const V rest = hn::Max(hn::NegMulAdd(hn::Mul(n, root), root, one), zero);
+                // Of a slim splat what is left of n may be below 0.
+                const V rest =
+                    hn::Max(hn::NegMulAdd(hn::Mul(hn::Max(n, zero), root), root, one), zero);
                 t = hn::Mul(rest, rest);
                 t = hn::Mul(hn::Mul(t, t), root);
                 auto some = hn::Gt(d, least);

@@ -27,7 +27,6 @@ class TileMemory {
 
  private:
     friend class TileSum;
-    class Bins;
     struct Kept;
     std::unique_ptr<Kept> kept;
 };

@@ -98,6 +98,34 @@ TEST(ExactCells, CountsAreOfCellsOnTheMiddleRay) {
     EXPECT_EQ(far[0], 0) << "beside the volume";
 }
 
+// Thinner than is told apart in a cell: the mean of the map, on any grid.
+TEST(ExactCells, AThinRangeHasTheMeanOfItsColors) {
+    const auto bent = tests::curvilinear({9, 9, 9}, [](double i, double j, double k) {
+        return glm::dvec3(i, j + 0.1 * std::sin(i), k + 0.05 * i);
+    });
+    for (const auto& grid : {tests::cube(9), bent}) {
+        CellWorld world(tests::stepOfPlaces(grid, [](const glm::dvec3& p) { return p.x; }),
+                        {"4.3:4.3001"});
+        RangeStyle& style = world.scene.layers[0].style;
+        style.color = ByValue{ColorMap(), 4.3, 4.3001};
+        world.scene.opacityPer = OpacityPer::Crossing;
+        constexpr int kSamples = 1000;
+        glm::dvec3 mean(0);
+        for (int i = 0; i < kSamples; ++i)
+            mean += colorOf(style, 4.3 + 1e-4 * (i + 0.5) / kSamples) / double(kSamples);
+        const auto sums = exact(world.scene, tests::lookFrom({3, -0.6, 0.4}, kSize, 0.2),
+                                Channels::WeightedColor);
+        int seen = 0;
+        for (std::size_t i = 0; i < sums.size(); i += 4) {
+            if (sums[i + 3] < 0.5f) continue;
+            ++seen;
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(sums[i + std::size_t(c)] / sums[i + 3], mean[c], 0.03) << i / 4;
+        }
+        EXPECT_GT(seen, 100);
+    }
+}
+
 double relativeL2(const std::vector<float>& is, const std::vector<float>& wanted) {
     double difference = 0, size = 0;
     for (std::size_t i = 0; i < wanted.size(); ++i) {

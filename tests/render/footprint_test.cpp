@@ -7,6 +7,7 @@
 #include <random>
 
 #include "render/reference/cpu_splatter.h"
+#include "render/reference/exact_order.h"
 #include "render/reference/image_compare.h"
 #include "render/splat/tile_splatter.h"
 #include "tests/support/scenes.h"
@@ -188,6 +189,28 @@ TEST(SlimFootprint, EveryPixelHasANumber) {
             const View view = tests::lookFrom(eye, {200, 150}, 0.3);
             for (const float w : sumTiles(world.scene, Runs{}, view, Channels::Weight, 0, {}, 2))
                 ASSERT_TRUE(std::isfinite(w)) << levels << " levels from " << eye.x << ' ' << eye.y;
+        }
+    }
+}
+
+// Hundreds of times as long as wide and near: the terms of such a splat's forms cancel.
+TEST(SlimFootprint, TilesSumTheTruthOfTheSlimmestFromCloseBy) {
+    for (const double height : {30.0, 300.0, 1000.0}) {
+        UniformWorld world({tests::axis(30), tests::axis(24), tests::axis(3, 0, height)});
+        ASSERT_TRUE(world.placed.longCells());
+        world.scene.layers[0].style.opacity = 0.3;
+        world.scene.order = Order::BackToFront;
+        const double width = world.placed.widths()[0][0];
+        for (const glm::dvec3& from : {glm::dvec3(20, 9, 4), {2, -25, 60}, {-17, 5, -2}}) {
+            const View view = tests::lookFrom(width * from, {120, 90}, 0.6);
+            const DrawList list = orderExactly(world.scene, pixelRays(view).eye);
+            for (const Channels channels : {Channels::Weight, Channels::Over}) {
+                Accumulator<double> truth(view.size, {channels});
+                splat(world.scene, list, view, {}, truth);
+                const auto is = sumTiles(world.scene, list, view, channels, 0, {}, 2);
+                EXPECT_LE(compareScalars(is, truth.planes[0]).relativeL2, 1e-4)
+                    << height << " from " << from.x;
+            }
         }
     }
 }

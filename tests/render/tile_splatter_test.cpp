@@ -1,4 +1,4 @@
-// What is the tiles' own; what they share with rows is in plane_sums_test.cpp.
+// What is the tiles' own; what any sum of planes does is in plane_sums_test.cpp.
 #include "render/splat/tile_splatter.h"
 #include "render/splat/depth_order.h"
 

@@ -189,6 +189,21 @@ TEST_F(StepStores, WhatChangesBetweenReadingAndWritingIsNotKept) {
     EXPECT_FALSE(one->hasUnwritten());
 }
 
+// Once, and none is written whole for nothing again.
+TEST_F(StepStores, AStepThatIsLargerThanAllRoomIsTold) {
+    const auto small =
+        std::make_shared<StepStore>(folder / "steps", StoreKind::Cache, 1000, kAtOnce);
+    const auto one = maker(small);
+    const auto step = one->make(0);
+    ASSERT_TRUE(one->hasUnwritten());
+    EXPECT_FALSE(one->writeOne([](double) { return true; }));
+    EXPECT_EQ(files(), 0u);
+    EXPECT_THAT(small->takeNotes(), testing::ElementsAre(testing::HasSubstr(
+                                        "steps may take less than one of these steps does")));
+    const auto again = one->make(0);
+    EXPECT_FALSE(one->hasUnwritten());
+}
+
 TEST_F(StepStores, WhatIsStoppedIsWrittenLater) {
     const auto one = maker();
     const auto step = one->make(0);

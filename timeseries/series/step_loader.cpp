@@ -131,10 +131,11 @@ bool StepLoader::mayBegin() const {
 
 // What is there to be written, as long as nobody waits for anything else.
 void StepLoader::write(const std::stop_token& stop) {
-    maker_.writeOne([&](double) {
+    const bool keeps = maker_.writeOne([&](double) {
         const std::lock_guard lock(mutex_);
         return !stop.stop_requested() && (wishes_.empty() || haste_ == Haste::Nobody);
     });
+    if (!keeps) wake_();  // there is something to tell
 }
 
 LoadResult StepLoader::load(std::size_t step, const RangeSet& looked) {

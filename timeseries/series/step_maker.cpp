@@ -216,22 +216,31 @@ bool StepMaker::hasUnwritten() {
     return !unwritten_.empty();
 }
 
-void StepMaker::writeOne(const std::function<bool(double)>& goOn) {
-    if (!hasUnwritten() || !goOn(0)) return;
+bool StepMaker::writeOne(const std::function<bool(double)>& goOn) {
+    if (!hasUnwritten() || !goOn(0)) return true;
     const Unwritten next = unwritten_.front();
     const auto step = next.step.lock();
-    if (!step) return;
+    if (!step) return true;
     bool stopped = false;
     const auto whileMeant = [&](double share) { return !(stopped = !goOn(share)); };
-    try {
-        stores_.write->write(next.origin, next.stamp, *step, reader_->openedAt, whileMeant);
-    } catch (const StepFileError& error) {
-        stores_.write->giveUp(error.what());
+    const auto giveUp = [&](const std::string& why) {
+        stores_.write->giveUp(why);
         unwritten_.clear();
         stores_.write = nullptr;
-        return;
+        return false;
+    };
+    try {
+        const auto wrote =
+            stores_.write->write(next.origin, next.stamp, *step, reader_->openedAt, whileMeant);
+        if (wrote == StepStore::Wrote::NoRoom)
+            return giveUp(
+                fmt::format("{} may take less than one of these steps does (--cache-size)",
+                            stores_.write->folder().string()));
+    } catch (const StepFileError& error) {
+        return giveUp(error.what());
     }
     if (!stopped) unwritten_.pop_front();
+    return true;
 }
 
 }  // namespace timeseries

@@ -58,8 +58,8 @@ class StepMaker {
     // Steps that were sorted, are worth writing and are still in use.
     bool hasUnwritten();
     // Writes one of them, if there is one, while goOn() says so; else it stays unwritten. What
-    // cannot be written is told by the store, and nothing more is.
-    void writeOne(const std::function<bool(double)>& goOn);
+    // cannot be written is told by the store, and nothing more is: false then.
+    bool writeOne(const std::function<bool(double)>& goOn);
 
  private:
     struct Unwritten {
