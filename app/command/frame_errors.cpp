@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <string_view>
 #include <utility>
 
 #include "app/choices/camera.h"
@@ -13,6 +12,7 @@
 #include "app/picture/error_text.h"
 #include "app/picture/picture.h"
 #include "app/say.h"
+#include "render/reference/exact_cells.h"
 
 namespace app {
 namespace {
@@ -20,8 +20,12 @@ namespace {
 using timeseries::SortedStep;
 
 // Of what is drawn as the truth itself.
-constexpr std::string_view kTruth =
-    "drawn as the field is between its points, along 16 rays a pixel";
+const std::string& truthText() {
+    static const std::string text =
+        fmt::format("drawn as the field is between its points, along {} rays a pixel",
+                    render::kExactRays * render::kExactRays);
+    return text;
+}
 
 bool drawsTruth(const RenderOptions& options, const Explorer& explorer) {
     return options.by.splatter == render::SplatterChoice::Exact &&
@@ -44,7 +48,7 @@ FrameError errorOf(const Explorer& e, const FrameAt& frame, const SortedStep& st
         return error;
     }
     if (isTruth) {
-        error.text = kTruth;
+        error.text = truthText();
         return error;
     }
     const auto outline = render::PlacedPoints::outlineOf(step.grid(), e.scale, e.map);
@@ -80,7 +84,7 @@ FrameError errorOfMiddle(const Explorer& e, const FrameFiles& frames, StepSource
         try {
             const auto step = source.get(frame.step, frames.front().step);
             FrameError error = errorOf(e, frame, *step, rungs, within, isTruth);
-            if (error.depth || !hasDepthError(*step)) return error;
+            if (error.depth || isTruth || !hasDepthError(*step)) return error;
             if (!error.whyNone.empty()) none.whyNone = std::move(error.whyNone);
         } catch (const timeseries::FileError&) {
             // What cannot be read is told when its turn comes, after the pictures before it.
@@ -114,27 +118,25 @@ std::string fileOf(const std::filesystem::path& picture, const Explorer& e) {
 
 FrameErrors::FrameErrors(const RenderOptions& options, const Explorer& explorer,
                          const FrameFiles& frames, StepSource& source)
-    : options_(options),
-      explorer_(explorer),
-      frames_(frames),
-      isTruth_(drawsTruth(options, explorer)) {
+    : options_(options), explorer_(explorer), frames_(frames) {
     if (options.errorOfEach) return;
     errors_.push_back(chosenError(options, explorer, [&](auto rungs, double within) {
-        return errorOfMiddle(explorer, frames, source, rungs, within, isTruth_);
+        return errorOfMiddle(explorer, frames, source, rungs, within,
+                             drawsTruth(options, explorer));
     }));
 }
 
 const FrameError& FrameErrors::of(const FrameAt& frame, const SortedStep& step) {
     if (!options_.errorOfEach) return errors_.front();
     errors_.push_back(chosenError(options_, explorer_, [&](auto rungs, double within) {
-        return errorOf(explorer_, frame, step, rungs, within, isTruth_);
+        return errorOf(explorer_, frame, step, rungs, within, drawsTruth(options_, explorer_));
     }));
     return errors_.back();
 }
 
 void FrameErrors::tell(bool saysNothing) const {
-    if (std::ranges::any_of(errors_, [](const FrameError& e) { return e.text == kTruth; }))
-        return say("  {}\n", kTruth);
+    if (std::ranges::any_of(errors_, [](const FrameError& e) { return e.text == truthText(); }))
+        return say("  {}\n", truthText());
     if (errors_.size() > 1) return tellEach(saysNothing);
     const FrameError& error = errors_.front();
     if (!error.text.empty() || (!error.whyNone.empty() && !saysNothing)) tellMiddle();

@@ -43,7 +43,6 @@ class FrameErrors {
     const RenderOptions& options_;
     const Explorer& explorer_;
     const FrameFiles& frames_;
-    bool isTruth_;                    // what is drawn
     std::vector<FrameError> errors_;  // of the one in the middle, or of those drawn by now
 };
 

@@ -135,21 +135,36 @@ void writeField(const std::filesystem::path& file, std::size_t edge) {
                                 bytes);
 }
 
+// Its first step, come.
+class Opened {
+ public:
+    explicit Opened(const std::filesystem::path& file)
+        : dataset_(openDataset(std::vector{file}, "")),
+          steps(dataset_, timeseries::RangeSet::everything(), std::uint64_t{1} << 30,
+                [this] { came_.release(); }) {
+        steps.want({0});
+        EXPECT_TRUE(came_.try_acquire_for(std::chrono::seconds(60)));
+        EXPECT_EQ((arrivals_ = steps.poll()).size(), 1u);
+    }
+
+ private:
+    OpenDataset dataset_;
+    std::counting_semaphore<> came_{0};
+    std::vector<LiveSteps::Arrival> arrivals_;  // shown as long as this lives
+
+ public:
+    LiveSteps steps;
+};
+
 TEST(LiveSteps, WhereNothingCanBeKeptThatIsToldOnce) {
     const tests::Variable cache("XDG_CACHE_HOME", std::nullopt), home("HOME", std::nullopt);
     const auto notesOf = [](std::size_t edge, const char* choice) {
         const std::filesystem::path file = tests::freshFolder() / "f.nrrd";
         writeField(file, edge);
         chooseStepCache(choice);
-        OpenDataset dataset = openDataset(std::vector{file}, "");
-        std::counting_semaphore<> came{0};
-        LiveSteps steps(dataset, timeseries::RangeSet::everything(), std::uint64_t{1} << 30,
-                        [&] { came.release(); });
-        steps.want({0});
-        EXPECT_TRUE(came.try_acquire_for(std::chrono::seconds(60)));
-        EXPECT_EQ(steps.poll().size(), 1u);
-        const std::vector<std::string> notes = steps.takeNotes();
-        EXPECT_TRUE(steps.takeNotes().empty());
+        Opened opened(file);
+        const std::vector<std::string> notes = opened.steps.takeNotes();
+        EXPECT_TRUE(opened.steps.takeNotes().empty());
         chooseStepCache("");
         return notes;
     };
@@ -171,19 +186,12 @@ TEST(LiveSteps, WhatAWindowSortedIsOpenedTheNextTime) {
     const Cache cache(folder / "steps");
     std::this_thread::sleep_for(timeseries::StepStore::kSettled);
     const auto isStored = [&] {
-        OpenDataset dataset = openDataset(std::vector{file}, "");
-        std::counting_semaphore<> came{0};
-        LiveSteps steps(dataset, timeseries::RangeSet::everything(), std::uint64_t{1} << 30,
-                        [&] { came.release(); });
-        steps.want({0});
-        EXPECT_TRUE(came.try_acquire_for(std::chrono::seconds(60)));
-        const auto arrivals = steps.poll();
-        EXPECT_EQ(arrivals.size(), 1u);
+        const Opened opened(file);
         // While it is shown, and nothing is asked for.
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
         while (stepCache()->isEmpty() && std::chrono::steady_clock::now() < end)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        return steps.series().isStored(0);
+        return opened.steps.series().isStored(0);
     };
     EXPECT_FALSE(isStored());
     EXPECT_TRUE(isStored());
