@@ -60,6 +60,7 @@ class TogetherWork {
     // Collective. Throws RanksError.
     StepMaker::Kept keep(const IndexTask& task) {
         std::optional<StepOrigin> origin;
+        auto without = StepMaker::Kept::Unknown;
         ranks_.agreed([&] {
             if (!dataset_ || dataset_->variable.name != task.variable)
                 dataset_ = openDataset(options_.files, task.variable);
@@ -69,8 +70,10 @@ class TogetherWork {
                                 "holds",
                                 dataset_->name, task.variable));
             origin = originOf(*dataset_->reader, dataset_->variableIndex, task.step);
+            if (!origin)
+                without = StepMaker::keptWithoutOrigin(*dataset_->reader, dataset_->variableIndex);
         });
-        if (ranks_.sum(origin.has_value()) < ranks_.size()) return StepMaker::Kept::Unknown;
+        if (ranks_.sum(origin.has_value()) < ranks_.size()) return without;
         std::optional<OriginStamp> stamp;
         bool before = false;
         ranks_.agreed([&] {
@@ -242,7 +245,7 @@ int indexOf(const Ranks& ranks, const IndexOptions& options) {
     });
     const IndexedSteps done = indexAll(ranks, options, store, std::move(tasks));
     if (ranks.isFirst()) return tellIndexed(done, *store);
-    return done.failed + done.of(StepMaker::Kept::NoRoom) == 0 ? 0 : 1;
+    return exitCodeOf(done);
 }
 
 }  // namespace

@@ -141,6 +141,7 @@ void IndexWork::work() {
         double written = 0;
         const auto tell = [&](double share) {
             progress_.add(share - std::exchange(written, share));
+            return true;
         };
         try {
             // The others are about as large: to sort them, too, would be in vain.
@@ -171,6 +172,12 @@ void tellNoRoom(const IndexedSteps& done, StepStore& store) {
 
 }  // namespace
 
+int exitCodeOf(const IndexedSteps& done) {
+    return done.failed + done.of(StepMaker::Kept::NoRoom) + done.of(StepMaker::Kept::Changed) == 0
+               ? 0
+               : 1;
+}
+
 int tellIndexed(IndexedSteps done, StepStore& store) {
     // What other programs, or processes of this one, wrote at the same time.
     for (std::size_t gone = store.room().settle(); gone > 0; --gone) {
@@ -197,7 +204,7 @@ int tellIndexed(IndexedSteps done, StepStore& store) {
         done.all() == 1 ? "" : "s", done.of(StepMaker::Kept::Written),
         done.of(StepMaker::Kept::Before), others, store.folder().string(), megabytesText(bytes));
     if (done.of(StepMaker::Kept::NoRoom) > 0) tellNoRoom(done, store);
-    return done.failed + done.of(StepMaker::Kept::NoRoom) == 0 ? 0 : 1;
+    return exitCodeOf(done);
 }
 
 }  // namespace app

@@ -86,6 +86,9 @@ class IndexWork {
     IndexedSteps done_;  // guarded by mutex_
 };
 
+// 1 where some are not kept that another time may be.
+int exitCodeOf(const IndexedSteps& done);
+
 // In a line, on stdout, when nobody writes any more; returns the exit code.
 int tellIndexed(IndexedSteps done, timeseries::StepStore& store);
 

@@ -120,6 +120,15 @@ TEST_F(IndexWorks, AStepWhoseFileIsRemovedHasFailed) {
     EXPECT_THAT([&] { (void)maker.keepNoMore(0); }, isGone);
 }
 
+// Another run may keep it.
+TEST_F(IndexWorks, AStepOfTheFutureIsNotKeptAndMissing) {
+    fs::last_write_time(nameOf(3), fs::file_time_type::clock::now() + std::chrono::hours(1));
+    const Told told = index(storeOf());
+    EXPECT_EQ(told.done.of(StepMaker::Kept::Written), kSteps - 1);
+    EXPECT_EQ(told.code, 1);
+    EXPECT_THAT(told.out, HasSubstr("not kept: 1 whose files changed meanwhile"));
+}
+
 TEST_F(IndexWorks, WhatSeveralStepsFailAtIsToldOnce) {
     IndexedSteps done;
     done.fail("one");

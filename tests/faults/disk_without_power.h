@@ -13,27 +13,30 @@
 
 namespace tests {
 
-// What a disk holds after the power went: of each file the pages that were synced, and of those
-// that were not some; of names that were not synced the first ones.
+// What a disk holds after the power went: of each file what the process that wrote it has synced,
+// for another may be on another machine, and of the rest some pages; of names that were not synced
+// the first ones.
 class Disk {
  public:
     explicit Disk(std::mt19937_64& random) : random_(random) {}
 
     void put(const std::string& path, std::string bytes) {
-        files_.push_back({bytes, std::move(bytes)});
+        files_.push_back({bytes, std::move(bytes), {}});
         names_[path] = files_.size() - 1;
         namesThen_.assign(1, names_);
     }
     void doIt(const Done& what) {
         switch (what.what) {
             case Done::Write: {
-                std::string& now = of(what.path).now;
-                now.resize(std::max<std::size_t>(now.size(), what.at + what.bytes.size()));
-                now.replace(what.at, what.bytes.size(), what.bytes);
+                put(what, of(what.path).now);
+                of(what.path).unsynced.push_back(what);
                 break;
             }
             case Done::Sync:
-                of(what.path).synced = of(what.path).now;
+                std::erase_if(of(what.path).unsynced, [&](const Done& write) {
+                    if (write.process == what.process) put(write, of(what.path).synced);
+                    return write.process == what.process;
+                });
                 break;
             case Done::SyncFolder:
                 namesThen_.assign(1, names_);
@@ -59,9 +62,14 @@ class Disk {
  private:
     struct File {
         std::string now, synced;
+        std::vector<Done> unsynced;
     };
     using Names = std::map<std::string, std::size_t>;
 
+    static void put(const Done& write, std::string& bytes) {
+        bytes.resize(std::max<std::size_t>(bytes.size(), write.at + write.bytes.size()));
+        bytes.replace(write.at, write.bytes.size(), write.bytes);
+    }
     File& of(const std::string& path) {
         if (!names_.contains(path)) {
             files_.emplace_back();

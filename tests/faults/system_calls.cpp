@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <utility>
@@ -29,7 +30,9 @@ std::string pathOf(int file) {
 }
 
 void note(Done what) {
-    if (watched && what.path.starts_with(*watched)) done.push_back(std::move(what));
+    if (!watched || !what.path.starts_with(*watched)) return;
+    what.when = std::chrono::steady_clock::now();
+    done.push_back(std::move(what));
 }
 
 long answer(long returned) {

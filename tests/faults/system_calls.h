@@ -3,6 +3,7 @@
 // are noted. One thread.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -30,6 +31,8 @@ struct Done {
     std::string path, to;
     std::uint64_t at = 0;
     std::string bytes;
+    std::chrono::steady_clock::time_point when{};  // the same clock for all processes
+    unsigned process = 0;
 };
 extern std::optional<std::string> watched;
 extern std::vector<Done> done;

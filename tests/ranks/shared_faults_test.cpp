@@ -2,15 +2,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <random>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include "tests/faults/disk_without_power.h"
 #include "tests/faults/system_calls.h"
 #include "tests/ranks/ranks_world.h"
 #include "tests/support/random_field.h"
+#include "tests/support/rounds.h"
 #include "timeseries/together.h"
 
 namespace timeseries {
@@ -19,6 +25,8 @@ namespace {
 using namespace ranks_world;
 using testing::HasSubstr;
 using tests::calls;
+using tests::done;
+using tests::watched;
 
 class SharedFaults : public testing::Test {
  protected:
@@ -51,6 +59,35 @@ class SharedFaults : public testing::Test {
         }
     }
     static void waitForAll() { (void)world().sum(1); }
+    // What all of them did to files, in the order of the clock.
+    static std::vector<tests::Done> doneByAll() {
+        std::ostringstream mine;
+        for (const tests::Done& each : done)
+            mine << each.what << ' ' << each.when.time_since_epoch().count() << ' ' << each.at
+                 << ' ' << world().rank() << ' ' << each.path.size() << ' ' << each.to.size() << ' '
+                 << each.bytes.size() << ' ' << each.path << each.to << each.bytes;
+        const std::vector<char> all = world().gather<char>(mine.str());
+        std::istringstream from(std::string(all.begin(), all.end()));
+        std::vector<tests::Done> every;
+        std::chrono::steady_clock::rep when;
+        std::size_t path, to, bytes;
+        int what;
+        for (tests::Done one; from >> what >> when >> one.at >> one.process >> path >> to >> bytes;
+             every.push_back(one)) {
+            const auto take = [&](std::string& text, std::size_t size) {
+                text.resize(size);
+                from.read(text.data(), static_cast<std::streamsize>(size));
+            };
+            from.get();
+            take(one.path, path);
+            take(one.to, to);
+            take(one.bytes, bytes);
+            one.what = static_cast<tests::Done::What>(what);
+            one.when = std::chrono::steady_clock::time_point(std::chrono::nanoseconds(when));
+        }
+        std::ranges::stable_sort(every, {}, &tests::Done::when);
+        return every;
+    }
     // What is there when all have come so far.
     std::vector<std::byte> there() const {
         waitForAll();
@@ -92,6 +129,41 @@ TEST_F(SharedFaults, OfAnyProcessLeaveTheOldFileAndAreToldByAll) {
     }
     fails_ = world().isFirst();
     EXPECT_EQ(failing(&tests::Calls::rename, EROFS, "Read-only file system"), 1);
+}
+
+// Of what several processes write none may be lost once it has its name.
+TEST_F(SharedFaults, WheneverThePowerGoesTheFileIsTheOldOrTheNewOne) {
+    const auto text = [&] {
+        const std::vector<std::byte> bytes = there();
+        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    };
+    ASSERT_EQ(write(), "");
+    const std::string before = text();
+    whole = tests::randomField<float>(random, kSize, 0);
+    watched = path.parent_path().string();
+    ASSERT_EQ(write(), "");
+    watched.reset();
+    const std::string after = text();
+    ASSERT_NE(before, after);
+    const std::vector<tests::Done> all = doneByAll();
+    done.clear();
+    if (!world().isFirst()) return;              // it looks for all
+    ASSERT_GE(all.size(), 5u + world().size());  // pieces, header, syncs, rename
+    std::size_t old = 0, anew = 0;
+    for (std::size_t crash = 0; crash <= all.size(); ++crash)
+        for (int i = 0; i < tests::rounds(20); ++i) {
+            tests::Disk disk(random);
+            disk.put(path.string(), before);
+            for (std::size_t d = 0; d < crash; ++d) disk.doIt(all[d]);
+            const auto left = disk.afterTheCrash();
+            ASSERT_TRUE(left.contains(path.string())) << crash;
+            const std::string& found = left.at(path.string());
+            ASSERT_TRUE(found == before || found == after) << "after " << crash << " calls";
+            old += found == before;
+            anew += found == after;
+        }
+    EXPECT_GT(old, 0u);
+    EXPECT_GT(anew, 0u);
 }
 
 }  // namespace

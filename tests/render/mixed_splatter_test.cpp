@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 
 #include "render/frame/plain_frame.h"
 #include "render/model/rays_across.h"
@@ -176,25 +178,43 @@ TEST(MixedSum, WhereAllIsClippedAwayNothingIsDrawn) {
         ASSERT_EQ(part, 0);
 }
 
-// By several rays a pixel both are a finer picture's means.
+// By several rays a pixel both are a finer picture's means: spheres, splats that end at the
+// domain's faces, those of a mesh, and squares, of as many pixels of either picture.
 TEST(MixedSum, SeveralRaysAreTheMeanOfAFinerPicture) {
-    CellWorld world(tests::noise(tests::cube(10)), {"0.2:0.4", "0.6:0.7"}, 0.7);
-    world.scene.order = Order::BackToFront;
-    drawByPoints(world.scene, 1);
+    const std::shared_ptr<const timeseries::Grid> even = tests::cube(10);
+    const auto columns = std::make_shared<const timeseries::Grid>(
+        std::array{tests::axis(12), tests::axis(12), tests::axis(3, 0, 5)});
+    const auto leaning = tests::curvilinear({9, 8, 7}, [](double i, double j, double k) {
+        return glm::dvec3(i + 0.2 * j - 4, j - 0.1 * k - 4, k + 0.01 * i * j - 3);
+    });
     const View view = tests::lookFrom({0.7, -3, 1.1}, {40, 30});
     View fine = view;
     fine.size *= 2;
-    const std::vector<float> is = mixed(world.scene, view, 2), finer = mixed(world.scene, fine);
-    for (int y = 0; y < 30; ++y)
-        for (int x = 0; x < 40; ++x)
-            for (int c = 0; c < 4; ++c) {
-                double mean = 0;
-                for (int s = 0; s < 4; ++s)
-                    mean +=
-                        double(finer[std::size_t(4 * ((2 * y + s / 2) * 80 + 2 * x + s % 2) + c)]) /
-                        4;
-                ASSERT_NEAR(is[std::size_t(4 * (y * 40 + x) + c)], mean, 1e-5) << x << ' ' << y;
-            }
+    for (const auto& grid : {even, columns, leaning})
+        for (const Footprint& footprint : {Footprint{}, Footprint{Kernel::Point, 2}}) {
+            SCOPED_TRACE(testing::Message() << grid->count() << ' ' << footprint.size);
+            CellWorld world(tests::noise(grid), {"0.2:0.4", "0.6:0.7"}, 0.7);
+            Scene& scene = world.scene;
+            ASSERT_EQ(world.placed.longCells(), grid == columns);
+            scene.order = Order::BackToFront;
+            scene.footprint = footprint;
+            drawByPoints(scene, 1);
+            const std::vector<float> is = mixed(scene, view, 2);
+            if (footprint.kernel == Kernel::Point) scene.footprint.size *= 2;
+            const std::vector<float> finer = mixed(scene, fine);
+            EXPECT_GT(*std::ranges::max_element(is), 0.1f);
+            for (int y = 0; y < 30; ++y)
+                for (int x = 0; x < 40; ++x)
+                    for (int c = 0; c < 4; ++c) {
+                        double mean = 0;
+                        for (int s = 0; s < 4; ++s)
+                            mean += double(finer[std::size_t(
+                                        4 * ((2 * y + s / 2) * 80 + 2 * x + s % 2) + c)]) /
+                                    4;
+                        ASSERT_NEAR(is[std::size_t(4 * (y * 40 + x) + c)], mean, 1e-5)
+                            << x << ' ' << y;
+                    }
+        }
 }
 
 // Unordered, each layer's plane is what it is alone, and the light is that of both.

@@ -47,6 +47,17 @@ TEST_F(StepStores, ASourceThatChangedIsSortedAnew) {
     EXPECT_EQ(files(), 1u);
 }
 
+// Who opened it before has points of before, and is to open it again: nothing is sorted.
+TEST_F(StepStores, ASourceThatChangedWhileItIsOpenIsNotSaidToBeSortedAnew) {
+    const auto opened = maker();
+    ASSERT_EQ(opened->keep(0), StepMaker::Kept::Written);
+    nrrdOf(file, 50);
+    const auto isTold = testing::ThrowsMessage<FileError>(HasSubstr(kHasChanged));
+    EXPECT_THAT([&] { (void)opened->make(0); }, isTold);
+    EXPECT_THAT([&] { (void)opened->keep(0); }, isTold);
+    EXPECT_THAT(store->takeNotes(), IsEmpty());
+}
+
 // Another program may read a file otherwise: it has not changed.
 TEST_F(StepStores, AStepOfAnotherProgramIsNotOfAChangedSource) {
     std::string about = store->stampOf(origin())->text;
@@ -216,10 +227,52 @@ TEST_F(StepStores, WhatIsStoppedIsWrittenLater) {
     EXPECT_FALSE(one->hasUnwritten());
 }
 
-TEST_F(StepStores, WhatNobodyHoldsAnyMoreIsNotWritten) {
+// A step that memory has no room for, and that was sorted once more, is written once.
+TEST_F(StepStores, WhatNobodyHoldsAnyMoreIsReadAgainAndWritten) {
     const auto one = maker();
-    (void)one->make(0);
+    for (int i = 0; i < 2; ++i) (void)one->make(0);
+    ASSERT_TRUE(one->hasUnwritten());
+    EXPECT_TRUE(one->writeOne([](double) { return true; }));
     EXPECT_FALSE(one->hasUnwritten());
+    const auto step = maker()->make(0);
+    EXPECT_TRUE(step->file());
+    expectField(*step, 100);
+}
+
+TEST_F(StepStores, WhatSomebodyHoldsIsWrittenFirst) {
+    const std::vector<fs::path> both{nrrdOf(folder / "f1.nrrd", 50), nrrdOf(folder / "f2.nrrd", 9)};
+    StepMaker series(openReader(both), 0, RangeSet::everything(),
+                     timeseries::StepStores{{store}, store, 1});
+    (void)series.make(0);
+    const auto held = series.make(1);
+    series.writeOne([](double) { return true; });
+    EXPECT_TRUE(series.hasUnwritten());
+    EXPECT_TRUE(series.make(1)->file());
+    fs::remove(both[0]);
+    EXPECT_TRUE(series.writeOne([](double) { return true; })) << "told where it is looked at";
+    EXPECT_FALSE(series.hasUnwritten());
+    EXPECT_EQ(files(), 1u);
+    EXPECT_THAT(store->takeNotes(), IsEmpty());
+}
+
+// A series that is larger than the cache may be would push itself out for ever.
+TEST_F(StepStores, WhatNobodyHoldsAnyMoreTakesNoRoomOfOthers) {
+    const fs::path other = nrrdOf(folder / "other.nrrd", 50);
+    (void)maker()->keep(0);
+    const std::uint64_t bytes = store->list().at(0).bytes;
+    store->clear();
+    const auto small =
+        std::make_shared<StepStore>(folder / "steps", StoreKind::Cache, 3 * bytes / 2, kAtOnce);
+    StepMaker first(openReader(std::span(&other, 1)), 0, RangeSet::everything(),
+                    timeseries::StepStores{{small}, small, 1});
+    ASSERT_EQ(first.keep(0), StepMaker::Kept::Written);
+    const auto one = maker(small);
+    (void)one->make(0);
+    EXPECT_TRUE(one->writeOne([](double) { return true; }));
+    EXPECT_FALSE(one->hasUnwritten());
+    EXPECT_TRUE(first.make(0)->file());
+    EXPECT_EQ(files(), 1u);
+    EXPECT_THAT(small->takeNotes(), IsEmpty());
 }
 
 TEST_F(StepStores, SmallStepsAndKeptRangesAreNotWritten) {

@@ -1,4 +1,6 @@
 // Steps written from their fields, of which no list of all points is made.
+#include <algorithm>
+
 #include "timeseries/grid/with_type.h"
 #include "timeseries/index/counted_list.h"
 #include "timeseries/index/parted_list.h"
@@ -38,12 +40,13 @@ bool write(const Field& field, const std::string& about, ByteSink& sink,
 bool writeField(const Field& field, const std::string& about, ByteSink& sink,
                 const std::function<bool(double)>& goOn, unsigned threads, std::uint64_t atOnce) {
     expectOneList(field.grid->count());
-    constexpr std::uint64_t kTogether = kBlocksTogether * kStepBlock;
+    constexpr std::uint64_t kFound = kBlocksFound * kStepBlock;
     return withType(field.type(), [&]<typename T>(T) {
         // A place of a counted list is an index alone.
         constexpr std::uint64_t kParts = kIsCounted<T> ? 8 : 4;
         const std::uint64_t least = atOnce > 0 ? atOnce : field.grid->count() / kParts;
-        return write<T>(field, about, sink, goOn, threads, (least / kTogether + 1) * kTogether);
+        const std::uint64_t stretches = std::max<std::uint64_t>(1, (least + kFound - 1) / kFound);
+        return write<T>(field, about, sink, goOn, threads, stretches * kFound);
     });
 }
 

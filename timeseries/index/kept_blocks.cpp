@@ -35,19 +35,24 @@ void BlockMemory::clear() {
     used_ = 0;
 }
 
-void KeptBlocks::fill(std::uint64_t count, const Encode& encode, unsigned threads) {
-    blocks_.resize(count);
+void KeptBlocks::add(std::uint64_t count, const Encode& encode, unsigned threads) {
+    const std::size_t before = blocks_.size();
+    blocks_.resize(before + count);
     const unsigned parts = threadsFor(count, 1, threads);
     memory_.resize(std::max<std::size_t>(memory_.size(), parts));
     std::atomic<std::uint64_t> next{0};
     sharing(parts, [&](unsigned part) {
-        memory_[part].clear();
         EncodedBlock block;
         for (std::uint64_t b; (b = next++) < count;) {
             encode(b, block);
-            blocks_[b] = memory_[part].keep(block);
+            blocks_[before + b] = memory_[part].keep(block);
         }
     });
+}
+
+void KeptBlocks::clear() {
+    blocks_.clear();
+    for (BlockMemory& memory : memory_) memory.clear();
 }
 
 void BlockWriter::write(std::span<const KeptBlock> blocks, std::span<const StepBlock> places) {

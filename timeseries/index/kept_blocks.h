@@ -32,8 +32,9 @@ class BlockMemory {
 // Blocks that are encoded at once, and where they are kept.
 class KeptBlocks {
  public:
-    // Encodes so many, on as many threads, into the memory of those before.
-    void fill(std::uint64_t count, const Encode& encode, unsigned threads);
+    // Encodes so many more, from number 0 of `encode` on, on as many threads.
+    void add(std::uint64_t count, const Encode& encode, unsigned threads);
+    void clear();  // their memory is used again
     std::span<const KeptBlock> blocks() const { return blocks_; }
 
  private:
@@ -47,7 +48,7 @@ class BlockWriter {
  public:
     // No write begins with so many bytes before it that it could go with: memory is held for it.
     BlockWriter(ByteSink& sink, unsigned threads,
-                std::uint64_t mostTogether = std::uint64_t{64} << 20)
+                std::uint64_t mostTogether = std::uint64_t{8} << 20)
         : sink_(sink), threads_(threads), mostTogether_(mostTogether) {}
     void write(std::span<const KeptBlock> blocks, std::span<const StepBlock> places);
 

@@ -17,6 +17,8 @@ namespace timeseries {
 
 // So many blocks have their ids together, and their keys behind them: few are in memory at once.
 constexpr std::uint64_t kBlocksTogether = 256;
+// Of which so many are found at a time.
+constexpr std::uint64_t kBlocksFound = 64;
 
 struct EncodedBlock {
     Bytes ids, keys;
@@ -35,7 +37,8 @@ std::array<std::uint32_t, 3> sizeOf(const Grid& grid);
 using Encode = std::function<void(std::uint64_t, EncodedBlock&)>;
 
 // Writes a list of so many points: `encode` makes a block of it, on several threads at once, of
-// those that `find` was last asked for, blocks of a part of the list. Nothing: goOn() said no.
+// those that `find` was last asked for, kBlocksFound that follow each other from a multiple of it
+// on, or the last ones. Nothing: goOn() said no.
 struct WrittenBlocks {
     std::vector<StepBlock> directory;
     std::uint64_t end;  // the byte behind them

@@ -96,7 +96,7 @@ class StepFile {
 bool writeStep(const SortedStep& step, const std::string& about, ByteSink& sink,
                const std::function<bool(double)>& goOn = {}, unsigned threads = sharingThreads());
 // The same of the field that a step would be built of, with less memory than its list: of `atOnce`
-// points of it, and fewer than 2^23 and a bucket's more; 0: of a part of them. REQUIRES: a value
+// points of it, and fewer than 2^21 and a bucket's more; 0: of a part of them. REQUIRES: a value
 // that is neither missing nor NaN. Throws std::length_error for more than 2^32 points, too.
 bool writeField(const Field& field, const std::string& about, ByteSink& sink,
                 const std::function<bool(double)>& goOn = {}, unsigned threads = sharingThreads(),

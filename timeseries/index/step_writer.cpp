@@ -27,11 +27,15 @@ std::optional<WrittenBlocks> writeBlocks(std::uint64_t points,
     for (std::uint64_t first = 0; first < blocks; first += kBlocksTogether) {
         if (goOn && !goOn(static_cast<double>(first) / static_cast<double>(blocks)))
             return std::nullopt;
-        const std::uint64_t count = std::min(kBlocksTogether, blocks - first);
-        const std::uint64_t from = first * kStepBlock;
-        find({from, std::min(points, (first + count) * kStepBlock) - from});
-        kept.fill(
-            count, [&](std::uint64_t b, EncodedBlock& out) { encode(first + b, out); }, threads);
+        kept.clear();
+        const std::uint64_t end = std::min(first + kBlocksTogether, blocks);
+        for (std::uint64_t next = first, behind; next < end; next = behind) {
+            behind = std::min(next + kBlocksFound, end);
+            find({next * kStepBlock, std::min(points, behind * kStepBlock) - next * kStepBlock});
+            kept.add(
+                behind - next, [&](std::uint64_t b, EncodedBlock& out) { encode(next + b, out); },
+                threads);
+        }
         for (const KeptBlock& block : kept.blocks()) directory.push_back(block.entry);
         const auto places = std::span(directory).subspan(first);
         at = placeBlocks(places, at);

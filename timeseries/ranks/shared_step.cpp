@@ -199,18 +199,18 @@ template <typename T>
 KeptBlocks encode(const ListPart<T>& part, const BrickOrder& order) {
     const std::uint64_t all = part.mine.size();
     KeptBlocks kept;
-    kept.fill((all + kStepBlock - 1) / kStepBlock,
-              [&](std::uint64_t b, EncodedBlock& out) {
-                  static thread_local BlockPoints<T> points;
-                  const std::size_t count = std::min(kStepBlock, all - b * kStepBlock);
-                  const auto packed = std::span(points.packed).first(count);
-                  const auto values = std::span(points.values).first(count);
-                  const auto gridIndex = std::span(points.gridIndex).first(count);
-                  part.mine.copy(b * kStepBlock, packed);
-                  unpackPoints<T>(packed, values, gridIndex);
-                  encodeBlock<T>(values, gridIndex, order, out);
-              },
-              sharingThreads());
+    kept.add((all + kStepBlock - 1) / kStepBlock,
+             [&](std::uint64_t b, EncodedBlock& out) {
+                 static thread_local BlockPoints<T> points;
+                 const std::size_t count = std::min(kStepBlock, all - b * kStepBlock);
+                 const auto packed = std::span(points.packed).first(count);
+                 const auto values = std::span(points.values).first(count);
+                 const auto gridIndex = std::span(points.gridIndex).first(count);
+                 part.mine.copy(b * kStepBlock, packed);
+                 unpackPoints<T>(packed, values, gridIndex);
+                 encodeBlock<T>(values, gridIndex, order, out);
+             },
+             sharingThreads());
     return kept;
 }
 

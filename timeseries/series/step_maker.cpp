@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 namespace timeseries {
@@ -94,7 +95,7 @@ SortedStep StepMaker::sorted(Field field) const {
     return SortedStep::build(std::move(field), asked_);
 }
 
-Field StepMaker::read(std::size_t step) {
+Field StepMaker::read(std::size_t step, bool changed) {
     std::vector<std::filesystem::path> files = reader_->sources(variable_, step).files;
     // A reader that does not know which they are may have few.
     if (files.empty() && reader_->files().size() <= OpenedFiles::kFew)
@@ -102,6 +103,9 @@ Field StepMaker::read(std::size_t step) {
     opened_.expectSame(files);
     Field field = reader_->read(variable_, step);
     opened_.expectSame(files);
+    // Of thousands the first.
+    if (changed && !std::exchange(toldChanged_, true))
+        stores_.read.front()->tellChanged(files.front());
     return field;
 }
 
@@ -123,10 +127,10 @@ void expectThere(const StepOrigin& origin) {
     }
 }
 
-std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std::size_t step) {
-    bool changed = false;
+std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std::size_t step,
+                                                  bool* changed) {
     for (const auto& store : stores_.read) {
-        auto file = store->find(origin, &changed);
+        auto file = store->find(origin, changed);
         if (!file || file->type() != variable().type) continue;
         const auto source = std::make_shared<const Reopened>(
             Reopened{files_, variable().name, step, store, origin, file->about()});
@@ -144,9 +148,6 @@ std::shared_ptr<const SortedStep> StepMaker::find(const StepOrigin& origin, std:
         } catch (const StepFileError&) {  // of another grid: its file has changed
         }
     }
-    // Of thousands the first.
-    if (changed && !std::exchange(toldChanged_, true))
-        stores_.read.front()->tellChanged(origin.files.front());
     return nullptr;
 }
 
@@ -157,38 +158,44 @@ std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
                 SortedStep::ofFile(std::move(file), variable().grid, variable().categories));
     const bool canBe = (!stores_.read.empty() || stores_.write) && kept_ == RangeSet::everything();
     const auto origin = canBe ? originOf(*reader_, variable_, step) : std::nullopt;
+    bool changed = false;
     if (origin)
-        if (auto found = find(*origin, step)) return found;
+        if (auto found = find(*origin, step, &changed)) return found;
     std::optional<OriginStamp> stamp;
     if (origin && stores_.write) stamp = stores_.write->stampOf(*origin);
-    auto made = std::make_shared<const SortedStep>(sorted(read(step)));
+    auto made = std::make_shared<const SortedStep>(sorted(read(step, changed)));
     // Where a step has places of its own, the file would not have them.
     if (stamp && made->kept() == RangeSet::everything() &&
         made->size() >= std::max<std::uint64_t>(stores_.worthWriting, 1) &&
-        made->sharedGrid() == variable().grid)
-        unwritten_.push_back({*origin, *stamp, made});
+        made->sharedGrid() == variable().grid) {
+        std::erase_if(unwritten_, [&](const Unwritten& each) { return each.step == step; });
+        unwritten_.push_back({step, *origin, *stamp, made, made->pointBytes()});
+    }
     return made;
 }
 
-StepMaker::Kept StepMaker::keep(std::size_t step, const std::function<void(double)>& told) {
+StepMaker::Kept StepMaker::keep(std::size_t step, const GoOn& goOn) {
     const auto origin = originOf(*reader_, variable_, step);
     if (origin) expectThere(*origin);
-    if (reader_->sorted(variable_, step) || (origin && find(*origin, step))) return Kept::Before;
+    bool changed = false;
+    if (reader_->sorted(variable_, step) || (origin && find(*origin, step, &changed)))
+        return Kept::Before;
     std::optional<OriginStamp> stamp;
     if (origin && stores_.write) stamp = stores_.write->stampOf(*origin);
-    const Field field = read(step);
+    const Field field = read(step, changed);
     if (!hasValue(field)) return Kept::Empty;
     if (field.grid != variable().grid) return Kept::Moves;
+    if (!origin) return keptWithoutOrigin(*reader_, variable_);
     if (!stamp || kept_ != RangeSet::everything() || field.type() != variable().type) {
-        if (origin) expectThere(*origin);
+        expectThere(*origin);
         return Kept::Unknown;
     }
-    const auto goOn = [&](double share) {
-        if (told) told(share);
-        return true;
-    };
     const auto into = [&](WholeFile& file) { return writeField(field, stamp->text, file, goOn); };
     return keptAs(stores_.write->write(*origin, *stamp, reader_->openedAt, into), *origin);
+}
+
+StepMaker::Kept StepMaker::keptWithoutOrigin(Reader& reader, std::size_t variable) {
+    return reader.stepGrids(variable).are == StepGrids::Are::One ? Kept::Unknown : Kept::Moves;
 }
 
 StepMaker::Kept StepMaker::keptAs(StepStore::Wrote wrote, const StepOrigin& origin) const {
@@ -206,21 +213,29 @@ StepMaker::Kept StepMaker::keptAs(StepStore::Wrote wrote, const StepOrigin& orig
 
 StepMaker::Kept StepMaker::keepNoMore(std::size_t step) {
     const auto origin = originOf(*reader_, variable_, step);
-    if (!origin) return Kept::Unknown;
+    if (!origin) return keptWithoutOrigin(*reader_, variable_);
     expectThere(*origin);
     return find(*origin, step) ? Kept::Before : Kept::NoRoom;
 }
 
-bool StepMaker::hasUnwritten() {
-    std::erase_if(unwritten_, [](const Unwritten& each) { return each.step.expired(); });
-    return !unwritten_.empty();
+StepStore::Wrote StepMaker::write(const Unwritten& one, const GoOn& goOn) {
+    if (const auto sorted = one.sorted.lock())
+        return stores_.write->write(one.origin, one.stamp, *sorted, reader_->openedAt, goOn);
+    // What it would push out may be as much in use.
+    if (!stores_.write->room().isFree(one.bytes)) return StepStore::Wrote::Nothing;
+    try {
+        return keep(one.step, goOn) == Kept::NoRoom ? StepStore::Wrote::NoRoom
+                                                    : StepStore::Wrote::All;
+    } catch (const FileError&) {  // told where somebody looks at it
+        return StepStore::Wrote::Nothing;
+    }
 }
 
-bool StepMaker::writeOne(const std::function<bool(double)>& goOn) {
+bool StepMaker::writeOne(const GoOn& goOn) {
     if (!hasUnwritten() || !goOn(0)) return true;
-    const Unwritten next = unwritten_.front();
-    const auto step = next.step.lock();
-    if (!step) return true;
+    const auto inUse = std::ranges::find_if(
+        unwritten_, [](const Unwritten& each) { return !each.sorted.expired(); });
+    const auto next = inUse == unwritten_.end() ? unwritten_.begin() : inUse;
     bool stopped = false;
     const auto whileMeant = [&](double share) { return !(stopped = !goOn(share)); };
     const auto giveUp = [&](const std::string& why) {
@@ -230,16 +245,15 @@ bool StepMaker::writeOne(const std::function<bool(double)>& goOn) {
         return false;
     };
     try {
-        const auto wrote =
-            stores_.write->write(next.origin, next.stamp, *step, reader_->openedAt, whileMeant);
-        if (wrote == StepStore::Wrote::NoRoom)
+        if (write(*next, whileMeant) == StepStore::Wrote::NoRoom)
             return giveUp(
                 fmt::format("{} may take less than one of these steps does (--cache-size)",
                             stores_.write->folder().string()));
     } catch (const StepFileError& error) {
         return giveUp(error.what());
+    } catch (const std::bad_alloc&) {  // it stays in memory alone
     }
-    if (!stopped) unwritten_.pop_front();
+    if (!stopped) unwritten_.erase(next);
     return true;
 }
 

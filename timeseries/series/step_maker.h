@@ -50,28 +50,38 @@ class StepMaker {
     // room. Throws as make(), and StepFileError.
     enum class Kept { Before, Written, Moves, Empty, Changed, Unknown, NoRoom };
     static constexpr std::size_t kKept = 7;
-    // `told`: how much of it is written, of 1, now and then.
-    Kept keep(std::size_t step, const std::function<void(double)>& told = {});
-    // As keep() where there is no room: Before, Unknown or NoRoom, without sorting.
+    // Given how much of it is written, of 1, now and then: whether to go on. What is stopped is not
+    // kept.
+    using GoOn = std::function<bool(double)>;
+    Kept keep(std::size_t step, const GoOn& goOn = {});
+    // Of steps that have no origin: Unknown, or Moves. Throws FileError.
+    static Kept keptWithoutOrigin(Reader& reader, std::size_t variable);
+    // As keep() where there is no room: without sorting.
     Kept keepNoMore(std::size_t step);
 
-    // Steps that were sorted, are worth writing and are still in use.
-    bool hasUnwritten();
-    // Writes one of them, if there is one, while goOn() says so; else it stays unwritten. What
-    // cannot be written is told by the store, and nothing more is: false then.
-    bool writeOne(const std::function<bool(double)>& goOn);
+    // Steps that were sorted and are worth writing.
+    bool hasUnwritten() const { return !unwritten_.empty(); }
+    // Writes one of them, if there is one, while goOn() says so; else it stays unwritten. Those
+    // still in use come first; another one is read again, unless there is no room for it but that
+    // of others. What cannot be written is told by the store, and nothing more is: false then.
+    bool writeOne(const GoOn& goOn);
 
  private:
     struct Unwritten {
+        std::size_t step;
         StepOrigin origin;
         OriginStamp stamp;
-        std::weak_ptr<const SortedStep> step;
+        std::weak_ptr<const SortedStep> sorted;
+        std::uint64_t bytes;  // of its list in memory, which is more than it takes on disk
     };
-    std::shared_ptr<const SortedStep> find(const StepOrigin& origin, std::size_t step);
+    StepStore::Wrote write(const Unwritten& one, const GoOn& goOn);
+    // `changed`: as StepStore::find().
+    std::shared_ptr<const SortedStep> find(const StepOrigin& origin, std::size_t step,
+                                           bool* changed = nullptr);
     Kept keptAs(StepStore::Wrote wrote, const StepOrigin& origin) const;
     SortedStep sorted(Field field) const;
-    // Of files that have not changed, before or meanwhile.
-    Field read(std::size_t step);
+    // Of files that have not changed, before or meanwhile; told where it was sorted and `changed`.
+    Field read(std::size_t step, bool changed);
 
     const std::unique_ptr<Reader> reader_;
     const std::shared_ptr<const std::vector<std::filesystem::path>> files_;  // the reader's

@@ -156,7 +156,9 @@ StepStore::Wrote StepStore::write(const StepOrigin& origin, const OriginStamp& s
         return Wrote::Nothing;
     std::error_code failed;
     fs::create_directories(folder_, failed);
-    if (failed) throw StepFileError(fmt::format("{}: {}", folder_.string(), failed.message()));
+    if (failed)
+        throw StepFileError(
+            fmt::format("{}: no folder can be made there: {}", folder_.string(), failed.message()));
     removeLeftovers();
     const fs::path path = pathOf(origin);
     WholeFile file(path);

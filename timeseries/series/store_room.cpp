@@ -40,6 +40,13 @@ bool StoreRoom::make(const fs::path& file, std::uint64_t bytes) {
     return true;
 }
 
+bool StoreRoom::isFree(std::uint64_t bytes) {
+    if (budget_ == kNoBudget) return true;
+    const std::lock_guard lock(mutex_);
+    if (std::chrono::steady_clock::now() >= nextCount_) count();
+    return bytes_ <= budget_ && bytes <= budget_ - bytes_;
+}
+
 std::uint64_t StoreRoom::bytesBesideHeld(const fs::path& file) const {
     const auto there = files_.find(file);
     return heldThere_.bytes -

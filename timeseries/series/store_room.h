@@ -32,6 +32,8 @@ class StoreRoom {
     // Makes room for this file of so many bytes, and takes it as written: those used last stay.
     // False, and none leaves, where it does not fit beside those that are held.
     bool make(const std::filesystem::path& file, std::uint64_t bytes);
+    // Whether so many bytes fit without any leaving.
+    bool isFree(std::uint64_t bytes);
     // Those of one request do not make room for each other. Which they are is asked when one has to
     // leave, once.
     void hold(std::function<std::vector<std::filesystem::path>()> which);
