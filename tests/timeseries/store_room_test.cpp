@@ -122,5 +122,28 @@ TEST_F(StoreRooms, WhatIsHeldMakesNoRoom) {
     EXPECT_EQ(held(), 5 * kBytes);
 }
 
+// As when it ran ahead for a day, in which the store was filled: what is used from then on would
+// have left at once.
+TEST_F(StoreRooms, WhatWasUsedBeforeTheClockWasSetBackLeavesFirst) {
+    for (int i = 0; i < 4; ++i) {
+        write(i);
+        fs::last_write_time(nameOf(i), fs::file_time_type::clock::now() + std::chrono::hours(24));
+    }
+    StoreRoom room(folder, 4 * kBytes, std::chrono::milliseconds(0));  // counts each time
+    const auto add = [&](int i) {
+        EXPECT_TRUE(room.make(nameOf(i), kBytes));
+        write(i);
+        fs::last_write_time(nameOf(i), fs::file_time_type::clock::now());
+    };
+    for (int i = 10; i < 14; ++i) {
+        add(i);
+        EXPECT_EQ(held(), 4 * kBytes);
+        for (int j = 10; j <= i; ++j) EXPECT_TRUE(fs::exists(nameOf(j))) << j << " after " << i;
+    }
+    add(14);
+    EXPECT_FALSE(fs::exists(nameOf(10)));
+    EXPECT_TRUE(fs::exists(nameOf(11)));
+}
+
 }  // namespace
 }  // namespace timeseries

@@ -47,21 +47,20 @@ BrickOrder::BrickOrder(const std::array<std::uint32_t, 3>& size)
     }
 
     const std::array<std::uint64_t, 3> stride{1, size[0], std::uint64_t{size[0]} * size[1]};
-    placeWithin_.resize(std::size_t{1} << brickBits_);
-    const auto indexOf = [&](std::uint32_t code) {
+    const auto stepOf = [&](std::uint32_t code) {
+        Step step{};
         std::uint64_t index = 0;
-        for (int a = 0; a < 3; ++a)
-            for (int b = 0; b < bits[a]; ++b)
-                index += (std::uint64_t{code >> to[a][b] & 1} << b) * stride[a];
-        return static_cast<std::uint32_t>(index);
+        for (std::size_t a = 0; a < 3; ++a) {
+            for (std::size_t b = 0; b < std::size_t(bits[a]); ++b)
+                step.along[a] |= static_cast<std::uint8_t>((code >> to[a][b] & 1) << b);
+            index += step.along[a] * stride[a];
+        }
+        step.index = static_cast<std::uint32_t>(index);
+        return step;
     };
-    for (std::uint32_t code = 0; code < placeWithin_.size(); ++code)
-        for (int a = 0; a < 3; ++a)
-            for (int b = 0; b < bits[a]; ++b)
-                placeWithin_[code][a] |= static_cast<std::uint8_t>((code >> to[a][b] & 1) << b);
-    for (std::uint32_t low = 0; low < 1u << kLowerBits; ++low) lower_.push_back(indexOf(low));
-    for (std::uint32_t high = 0; high <= placeWithin_.size() >> kLowerBits; ++high)
-        upper_.push_back(indexOf(high << kLowerBits));
+    for (std::uint32_t low = 0; low < 1u << kLowerBits; ++low) lower_.push_back(stepOf(low));
+    for (std::uint32_t high = 0; high <= 1u << (brickBits_ - kLowerBits); ++high)
+        upper_.push_back(stepOf(high << kLowerBits));
     firstOf_.resize(all);
     extent_.resize(all);
     cut_.resize(all);
@@ -95,10 +94,12 @@ bool BrickOrder::toGridIndices(std::uint32_t* codes, std::size_t count) const {
         const std::uint32_t code = codes[i];
         const std::uint32_t brick = code >> brickBits_, place = code & mask;
         if (brick >= firstOf_.size()) return false;
+        const Step &lower = lower_[place & ((1u << kLowerBits) - 1)],
+                   &upper = upper_[place >> kLowerBits];
         if (cut_[brick] != 0)
-            for (int a = 0; a < 3; ++a) good &= placeWithin_[place][a] < extent_[brick][a];
-        codes[i] = firstOf_[brick] + lower_[place & ((1u << kLowerBits) - 1)] +
-                   upper_[place >> kLowerBits];
+            for (std::size_t a = 0; a < 3; ++a)
+                good &= (lower.along[a] | upper.along[a]) < extent_[brick][a];
+        codes[i] = firstOf_[brick] + lower.index + upper.index;
     }
     return good;
 }

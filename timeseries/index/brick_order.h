@@ -33,11 +33,14 @@ class BrickOrder {
     int brickBits_ = 0;                               // of a code, its place in the brick
     std::array<std::vector<std::uint32_t>, 3> part_;  // of a code, by place along each axis
     std::vector<std::uint32_t> firstOf_;              // grid index, by brick
-    // To be added, by the lower and the upper bits of the place in the brick: modulo 2^32, for
-    // there are places beyond the grid.
-    std::vector<std::uint32_t> lower_, upper_;
-    // Points along the axes, by brick, and which place that is, by place in the brick.
-    std::vector<std::array<std::uint8_t, 3>> extent_, placeWithin_;
+    // What bits of the place in a brick add to the grid index, modulo 2^32, for there are places
+    // beyond the grid, and along the axes: the lower bits, and the upper ones.
+    struct Step {
+        std::uint32_t index;
+        std::array<std::uint8_t, 3> along;
+    };
+    std::vector<Step> lower_, upper_;
+    std::vector<std::array<std::uint8_t, 3>> extent_;  // points along the axes, by brick
     std::vector<std::uint8_t> cut_;  // of a brick, whether it has fewer points than most
 };
 

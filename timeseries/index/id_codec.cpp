@@ -90,10 +90,12 @@ bool decodeIds(std::span<const std::byte> from, std::span<std::uint32_t> ids) {
     if (packed > from.size()) return false;
 
     const std::size_t count = ids.size() - 1;
-    const auto classes = std::make_unique_for_overwrite<std::uint8_t[]>(count);
+    static thread_local std::vector<std::uint8_t> room;
+    room.resize(std::max(room.size(), count));
+    std::uint8_t* const classes = room.data();
     static thread_local const std::unique_ptr<ZSTD_DCtx, FreeDecoder> context(ZSTD_createDCtx());
     if (!context) throw std::bad_alloc();
-    if (ZSTD_decompressDCtx(context.get(), classes.get(), count, from.data(), packed) != count)
+    if (ZSTD_decompressDCtx(context.get(), classes, count, from.data(), packed) != count)
         return false;
     from = from.subspan(packed);
 

@@ -148,7 +148,9 @@ void LazyColumn<T>::sortBucket(std::size_t bucket) const {
     if (std::ranges::is_sorted(values)) return;
     const auto keys = std::make_unique_for_overwrite<Key[]>(count);
     std::ranges::transform(values, keys.get(), [](T value) { return orderedKey(value); });
-    sortPairs<T>(std::span<const Key>(keys.get(), count), gridIndex, values);
+    const auto room = std::make_unique_for_overwrite<PackedPoint<T>[]>(count);
+    sortPairs<T>(std::span<const Key>(keys.get(), count), gridIndex, values,
+                 std::span(room.get(), count));
 }
 
 template <typename T>

@@ -49,14 +49,12 @@ void unpackPoints(std::span<const PackedPoint<T>> points, std::span<T> values,
 }
 
 // `keys` are the points' in the order of gridIndex as it is; values get what they stand for, and
-// both come out in order. REQUIRES: all of one size.
+// both come out in order. `room`: for so many, which become anything. REQUIRES: all of one size.
 template <typename T>
 void sortPairs(std::span<const OrderedKey<T>> keys, std::span<std::uint32_t> gridIndex,
-               std::span<T> values) {
-    const std::size_t n = keys.size();
-    const auto packed = std::make_unique_for_overwrite<PackedPoint<T>[]>(n);
-    for (std::size_t i = 0; i < n; ++i) packed[i] = packPoint<T>(keys[i], gridIndex[i]);
-    const std::span<PackedPoint<T>> points(packed.get(), n);
+               std::span<T> values, std::span<PackedPoint<T>> room) {
+    const auto points = room.first(keys.size());
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = packPoint<T>(keys[i], gridIndex[i]);
     sortPacked(points);
     unpackPoints<T>(points, values, gridIndex);
 }

@@ -1,5 +1,6 @@
 #include "timeseries/series/store_room.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -14,6 +15,18 @@ namespace fs = std::filesystem;
 
 // Than a count took there are until the next.
 constexpr int kTimesLonger = 20;
+
+// A time of use that is so far to come is of a clock that was set back since; less is of a server
+// whose clock is not ours.
+constexpr std::chrono::minutes kAhead{1};
+
+// Until that time came, the file would leave after all that are used meanwhile: it is used now.
+std::chrono::system_clock::time_point useOf(const StoredFile& file,
+                                            std::chrono::system_clock::time_point now) {
+    if (file.used <= now + kAhead) return file.used;
+    (void)::utimensat(AT_FDCWD, file.path.c_str(), nullptr, 0);
+    return now;
+}
 
 }  // namespace
 
@@ -111,7 +124,9 @@ void StoreRoom::count() {
     byUse_.clear();
     bytes_ = 0;
     heldThere_ = {};
-    for (const StoredFile& file : storedFiles(folder_)) put(file.path, {file.bytes, file.used});
+    const auto now = std::chrono::system_clock::now();
+    for (const StoredFile& file : storedFiles(folder_))
+        put(file.path, {file.bytes, useOf(file, now)});
     const auto end = std::chrono::steady_clock::now();
     nextCount_ = end + std::max<std::chrono::steady_clock::duration>(betweenCounts_,
                                                                      kTimesLonger * (end - begin));
