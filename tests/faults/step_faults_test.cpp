@@ -71,14 +71,14 @@ TEST_F(StepFaults, ShortAndInterruptedReadsAndWritesChangeNothing) {
         if (call % 3 == 0) return -EINTR;
         return static_cast<long>(std::max<std::size_t>(1, random() % (bytes + 1)));
     };
-    calls.pread = calls.pwrite = some;
+    calls.pread = calls.pwritev = some;
     write();
     const SortedStep stored = SortedStep::stored(
         std::make_shared<const StepFile>(openBytes(path)), field.grid, false,
         {[](const std::string& why) -> SortedStep { throw std::runtime_error(why); }});
     expectWhole(stored);
     EXPECT_GT(calls.preads, 20u);
-    EXPECT_GT(calls.pwrites, 20u);
+    EXPECT_GT(calls.pwritevs, 20u);
     calls = {};
     EXPECT_EQ(tests::readBytes(path).size(), tests::written(step, "about").size());
 }
@@ -123,7 +123,7 @@ TEST_F(StepFaults, AFailedWriteLeavesTheOldFile) {
     std::size_t failed = 0;
     for (std::size_t first = 0;; ++first) {
         calls = {};
-        calls.pwrite = [&](std::size_t call, std::size_t) -> std::optional<long> {
+        calls.pwritev = [&](std::size_t call, std::size_t) -> std::optional<long> {
             return call >= first ? std::optional<long>(-ENOSPC) : std::nullopt;
         };
         try {
@@ -246,7 +246,7 @@ TEST_P(StepWriters, ThatAreKilledAtAnyCallLeaveTheOldFileOrTheNew) {
 // A disk with room for so many bytes takes a page at a time, the last write in part.
 void giveRoom(std::uint64_t bytes) {
     calls = {};
-    calls.pwrite = [left = bytes](std::size_t, std::size_t asked) mutable -> std::optional<long> {
+    calls.pwritev = [left = bytes](std::size_t, std::size_t asked) mutable -> std::optional<long> {
         if (left == 0) return -ENOSPC;
         const std::uint64_t taken = std::min({left, std::uint64_t{asked}, kPage});
         left -= taken;

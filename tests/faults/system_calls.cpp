@@ -2,6 +2,7 @@
 
 #include <sys/syscall.h>
 #include <sys/types.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -53,20 +54,20 @@ ssize_t pread(int file, void* into, size_t bytes, off_t at) {
         }
     return ::syscall(SYS_pread64, file, into, bytes, at);
 }
-ssize_t pwrite(int file, const void* from, size_t bytes, off_t at) {
+ssize_t pwritev(int file, const iovec* pieces, int count, off_t at) {
+    std::string all;
+    for (int i = 0; i < count; ++i)
+        all.append(static_cast<const char*>(pieces[i].iov_base), pieces[i].iov_len);
     perhapsDie();
-    if (calls.pwrite)
-        if (const auto meddled = calls.pwrite(calls.pwrites++, bytes)) {
+    if (calls.pwritev)
+        if (const auto meddled = calls.pwritev(calls.pwritevs++, all.size())) {
             if (*meddled < 0) return answer(*meddled);
-            bytes = static_cast<size_t>(*meddled);
+            all.resize(static_cast<size_t>(*meddled));
         }
-    const long put = ::syscall(SYS_pwrite64, file, from, bytes, at);
-    if (put > 0)
-        note({Done::Write,
-              pathOf(file),
-              "",
-              static_cast<std::uint64_t>(at),
-              {static_cast<const char*>(from), static_cast<std::size_t>(put)}});
+    const long put = ::syscall(SYS_pwrite64, file, all.data(), all.size(), at);
+    if (put <= 0) return put;
+    all.resize(static_cast<size_t>(put));
+    note({Done::Write, pathOf(file), "", static_cast<std::uint64_t>(at), std::move(all)});
     return put;
 }
 int fsync(int file) {

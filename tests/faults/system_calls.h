@@ -17,8 +17,8 @@ namespace tests {
 // what it returns (a count, or -errno).
 using Meddle = std::function<std::optional<long>(std::size_t call, std::size_t bytes)>;
 struct Calls {
-    Meddle pread, pwrite, fsync, rename, flock;
-    std::size_t preads = 0, pwrites = 0, fsyncs = 0, renames = 0, flocks = 0;
+    Meddle pread, pwritev, fsync, rename, flock;
+    std::size_t preads = 0, pwritevs = 0, fsyncs = 0, renames = 0, flocks = 0;
     // The process is killed in place of what would be the so-manieth of all that change anything.
     std::optional<std::size_t> killedAt;
     std::size_t changes = 0;

@@ -124,7 +124,7 @@ TEST_F(SharedFaults, OfAnyProcessLeaveTheOldFileAndAreToldByAll) {
     for (unsigned r = 0; r < world().size(); ++r) {
         SCOPED_TRACE(testing::Message() << "rank " << r);
         fails_ = world().rank() == r;
-        EXPECT_GE(failing(&tests::Calls::pwrite, ENOSPC, "No space left on device"), 1);
+        EXPECT_GE(failing(&tests::Calls::pwritev, ENOSPC, "No space left on device"), 1);
         EXPECT_GE(failing(&tests::Calls::fsync, EIO, "Input/output error"), 1);
     }
     fails_ = world().isFirst();

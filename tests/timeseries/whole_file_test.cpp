@@ -4,6 +4,10 @@
 #include <sys/stat.h>
 
 #include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "tests/support/files.h"
 
@@ -45,6 +49,25 @@ TEST(WholeFile, WhoMayReadItStaysAsItIs) {
     write(to, "after");
     EXPECT_EQ(fs::status(to).permissions(), fs::perms::owner_read | fs::perms::owner_write);
     EXPECT_EQ(tests::readBytes(to), "after");
+}
+
+// More than the system takes at once, and some of them empty.
+TEST(WholeFile, HasPiecesOneBehindTheOther) {
+    const fs::path to = tests::freshFolder() / "pieces";
+    std::vector<std::string> texts;
+    std::string all = "at";
+    for (std::size_t i = 0; i < 5000; ++i) {
+        texts.emplace_back(i % 7, static_cast<char>('a' + i % 26));
+        all += texts.back();
+    }
+    std::vector<std::span<const std::byte>> pieces;
+    for (const std::string& text : texts) pieces.push_back(std::as_bytes(std::span(text)));
+    WholeFile file(to);
+    file.writePieces(2, pieces);
+    file.writePieces(1, {});
+    file.write(0, std::as_bytes(std::span(std::string_view("at"))));
+    file.finish();
+    EXPECT_EQ(tests::readBytes(to), all);
 }
 
 }  // namespace

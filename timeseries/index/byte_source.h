@@ -43,6 +43,14 @@ class ByteSink {
     virtual ~ByteSink() = default;
     // All of `bytes`, or throws StepFileError. What lies between two writes is zero.
     virtual void write(std::uint64_t at, std::span<const std::byte> bytes) = 0;
+    // Likewise, bytes of which each piece lies behind the one before it: as one write, where that
+    // is known how, for which the system takes larger pages of its cache than for many.
+    virtual void writePieces(std::uint64_t at, std::span<const std::span<const std::byte>> pieces) {
+        for (const auto piece : pieces) {
+            write(at, piece);
+            at += piece.size();
+        }
+    }
 };
 
 // An ordinary file; null where there is none of this name. It stays readable when its name is gone.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "timeseries/together.h"
 
@@ -10,7 +11,6 @@ namespace {
 
 // More than any block has; of a small list little is taken.
 constexpr std::size_t kFirstPiece = std::size_t{1} << 20, kPiece = std::size_t{8} << 20;
-constexpr std::size_t kPiecesWorthAThread = 64;  // pieces of some 50 KB
 
 }  // namespace
 
@@ -55,36 +55,25 @@ void KeptBlocks::clear() {
     for (BlockMemory& memory : memory_) memory.clear();
 }
 
-void BlockWriter::write(std::span<const KeptBlock> blocks, std::span<const StepBlock> places) {
-    std::vector<Piece> pieces;
-    const auto add = [&](std::uint64_t at, std::span<const std::byte> bytes) {
-        if (!bytes.empty()) pieces.push_back({at, bytes});  // keys of one value have none
-    };
+void write(std::span<const KeptBlock> blocks, std::span<const StepBlock> places, ByteSink& sink) {
+    using Piece = std::span<const std::byte>;
+    std::vector<std::pair<std::uint64_t, Piece>> all;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-        add(places[b].idsAt, blocks[b].ids);
-        add(places[b].keysAt, blocks[b].keys);
+        all.emplace_back(places[b].idsAt, blocks[b].ids);
+        all.emplace_back(places[b].keysAt, blocks[b].keys);
     }
-    std::ranges::sort(pieces, {}, &Piece::at);
-    for (std::size_t first = 0, end; first < pieces.size(); first = end) {
-        std::uint64_t behind = pieces[first].at;
-        for (end = first; end < pieces.size() && pieces[end].at == behind &&
-                          behind - pieces[first].at < mostTogether_;
-             ++end)
-            behind += pieces[end].bytes.size();
-        writeTogether(std::span(pieces).subspan(first, end - first));
+    std::erase_if(all, [](const auto& piece) { return piece.second.empty(); });  // of one value
+    std::ranges::sort(all, {}, [](const auto& piece) { return piece.first; });
+    std::vector<Piece> together;
+    for (std::size_t i = 0; i < all.size();) {
+        const std::uint64_t from = all[i].first;
+        std::uint64_t behind = from;
+        for (together.clear(); i < all.size() && all[i].first == behind; ++i) {
+            together.push_back(all[i].second);
+            behind += all[i].second.size();
+        }
+        sink.writePieces(from, together);
     }
-}
-
-void BlockWriter::writeTogether(std::span<const Piece> pieces) {
-    const std::uint64_t from = pieces.front().at,
-                        bytes = pieces.back().at + pieces.back().bytes.size() - from;
-    together_.resize(std::max<std::size_t>(together_.size(), bytes));
-    inParts(pieces.size(), threadsFor(pieces.size(), kPiecesWorthAThread, threads_),
-            [&](std::size_t first, std::size_t end) {
-                for (const Piece& piece : pieces.subspan(first, end - first))
-                    std::ranges::copy(piece.bytes, together_.data() + (piece.at - from));
-            });
-    sink_.write(from, {together_.data(), bytes});
 }
 
 }  // namespace timeseries

@@ -42,27 +42,7 @@ class KeptBlocks {
     std::vector<BlockMemory> memory_;  // a thread each
 };
 
-// Writes blocks where they lie. What lies together is one write, for which the system takes larger
-// pages of its cache than for many.
-class BlockWriter {
- public:
-    // No write begins with so many bytes before it that it could go with: memory is held for it.
-    BlockWriter(ByteSink& sink, unsigned threads,
-                std::uint64_t mostTogether = std::uint64_t{8} << 20)
-        : sink_(sink), threads_(threads), mostTogether_(mostTogether) {}
-    void write(std::span<const KeptBlock> blocks, std::span<const StepBlock> places);
-
- private:
-    struct Piece {
-        std::uint64_t at;
-        std::span<const std::byte> bytes;
-    };
-    void writeTogether(std::span<const Piece> pieces);
-
-    ByteSink& sink_;
-    unsigned threads_;
-    std::uint64_t mostTogether_;
-    PageVector<std::byte> together_;
-};
+// Writes blocks where they lie.
+void write(std::span<const KeptBlock> blocks, std::span<const StepBlock> places, ByteSink& sink);
 
 }  // namespace timeseries

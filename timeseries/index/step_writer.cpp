@@ -23,7 +23,6 @@ std::optional<WrittenBlocks> writeBlocks(std::uint64_t points,
     directory.reserve(blocks);
     std::uint64_t at = kHeaderBytes;
     KeptBlocks kept;
-    BlockWriter writer(sink, threads);
     for (std::uint64_t first = 0; first < blocks; first += kBlocksTogether) {
         if (goOn && !goOn(static_cast<double>(first) / static_cast<double>(blocks)))
             return std::nullopt;
@@ -39,7 +38,7 @@ std::optional<WrittenBlocks> writeBlocks(std::uint64_t points,
         for (const KeptBlock& block : kept.blocks()) directory.push_back(block.entry);
         const auto places = std::span(directory).subspan(first);
         at = placeBlocks(places, at);
-        writer.write(kept.blocks(), places);
+        write(kept.blocks(), places, sink);
     }
     return WrittenBlocks{std::move(directory), at};
 }

@@ -226,8 +226,8 @@ void writeList(const Ranks& ranks, ListPart<T> part, const SharedStep& step, Who
     const std::uint64_t before = ranks.sumBefore(entries.size());
     const std::uint64_t end = placeBlocks(directory, kHeaderBytes);
     const auto write = [&](ByteSink& sink) {
-        BlockWriter(sink, sharingThreads())
-            .write(kept.blocks(), std::span(directory).subspan(before, entries.size()));
+        timeseries::write(kept.blocks(), std::span(directory).subspan(before, entries.size()),
+                          sink);
     };
 
     const std::string name = ranks.fromFirst(file ? file->nameOfNow().string() : "");

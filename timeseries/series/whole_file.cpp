@@ -4,14 +4,20 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <climits>
+#include <cstddef>
 #include <cstring>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "timeseries/series/replaced_file.h"
 
@@ -27,13 +33,23 @@ std::atomic<unsigned> written{0};
     throw StepFileError(fmt::format("{}: {}", path.string(), std::strerror(code)));
 }
 
-void writeAll(int file, const fs::path& path, std::uint64_t at, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t put = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(at));
+using Piece = std::span<const std::byte>;
+
+void writeAll(int file, const fs::path& path, std::uint64_t at, std::span<const Piece> pieces) {
+    std::vector<iovec> left;
+    for (const Piece piece : pieces)
+        left.push_back({const_cast<std::byte*>(piece.data()), piece.size()});
+    for (auto next = left.begin(); next != left.end();) {
+        const auto atOnce = std::min<std::ptrdiff_t>(left.end() - next, IOV_MAX);
+        ssize_t put = ::pwritev(file, &*next, static_cast<int>(atOnce), static_cast<off_t>(at));
         if (put < 0 && errno == EINTR) continue;
         if (put < 0) fail(path, errno);
-        bytes = bytes.subspan(static_cast<std::size_t>(put));
         at += static_cast<std::uint64_t>(put);
+        for (; next != left.end() && static_cast<std::size_t>(put) >= next->iov_len; ++next)
+            put -= static_cast<ssize_t>(next->iov_len);
+        if (next == left.end()) break;
+        next->iov_base = static_cast<std::byte*>(next->iov_base) + put;
+        next->iov_len -= static_cast<std::size_t>(put);
     }
 }
 
@@ -89,7 +105,11 @@ WholeFile::~WholeFile() {
 }
 
 void WholeFile::write(std::uint64_t at, std::span<const std::byte> bytes) {
-    writeAll(file_, path_, at, bytes);
+    writeAll(file_, path_, at, {&bytes, 1});
+}
+
+void WholeFile::writePieces(std::uint64_t at, std::span<const Piece> pieces) {
+    writeAll(file_, path_, at, pieces);
 }
 
 std::uint64_t WholeFile::bytes() const {
@@ -120,7 +140,11 @@ FilePart::~FilePart() {
 }
 
 void FilePart::write(std::uint64_t at, std::span<const std::byte> bytes) {
-    writeAll(file_, path_, at, bytes);
+    writeAll(file_, path_, at, {&bytes, 1});
+}
+
+void FilePart::writePieces(std::uint64_t at, std::span<const Piece> pieces) {
+    writeAll(file_, path_, at, pieces);
 }
 
 void FilePart::flush() {

@@ -21,6 +21,7 @@ class WholeFile final : public ByteSink {
     ~WholeFile() override;
 
     void write(std::uint64_t at, std::span<const std::byte> bytes) override;
+    void writePieces(std::uint64_t at, std::span<const std::span<const std::byte>> pieces) override;
     // So far.
     std::uint64_t bytes() const;
     // On the disk, and there under its name, in that order.
@@ -46,6 +47,7 @@ class FilePart final : public ByteSink {
     ~FilePart() override;
 
     void write(std::uint64_t at, std::span<const std::byte> bytes) override;
+    void writePieces(std::uint64_t at, std::span<const std::span<const std::byte>> pieces) override;
     // On the disk.
     void flush();
 
