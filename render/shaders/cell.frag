@@ -102,7 +102,7 @@ void main() {
     const float met = abs(last - first);
     const float seen = seenTo(front, back, depthOfLight, perWeight * max(whole, met * range.z), met);
     const float rayLength = view.depths.z * longer;
-    const vec3 place = m + inRange(value, change, halfWay) * d;
+    const vec3 place = m + inRange(value, change, halfWay, depthOfLight) * d;
     sum = vec4(lit(colorBetween(front, seen), place, d, rayLength,
                    lampOfRay(offset, rayLength)) * alpha, alpha);
 #endif

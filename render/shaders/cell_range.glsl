@@ -104,10 +104,10 @@ vec3 colorBetween(float a, float b) {
 
 #ifdef OVER
 // As in render/splat/cell_range-inl.h.
+float shareFromFront(float x) { return (1.0 + x / 12.0) / (2.0 + x / 2.0 + x * x / 12.0); }
 float seenTo(float front, float back, float x, float whole, float along) {
     const float values = max(abs(back - front), 1e-30), met = max(along, 1e-30);
-    x = max(x, whole * min(values / met, 1.0));
-    const float share = (1.0 + x / 12.0) / (2.0 + x / 2.0 + x * x / 12.0);
+    const float share = shareFromFront(max(x, whole * min(values / met, 1.0)));
     return front + (1.0 + min(met / values, 1.0) * (2.0 * share - 1.0)) * (back - front);
 }
 
@@ -135,14 +135,15 @@ vec3 litBy(vec3 color, vec3 g, float change, float steep, float rayLength, float
     return lit(color, min(1.0, abs(change) * per / rayLength), 1.0 / (1.0 + steep * per),
                dot(g, view.lamp.xyz) * per, change, ofRay);
 }
-// From the middle of a ray's way, where the field has that value and changes so, to the middle of what
-// lies in the range, as if it were linear along the ray.
-float inRange(float value, float change, float halfWay) {
-    if (!crossesLeast() && !crossesMost()) return 0.0;
+// From the middle of a ray's way, where the field has that value and changes so, to where, in the mean,
+// light leaves what lies in the range, as if it were linear along the ray: of an optical depth x.
+float inRange(float value, float change, float halfWay, float x) {
+    const float share = shareFromFront(x);
+    if (!crossesLeast() && !crossesMost()) return mix(-halfWay, halfWay, share);
     const float per = 1.0 / (change < 0.0 ? min(change, -1e-12) : max(change, 1e-12));
     const vec2 ends = clamp((vec2(crossesLeast() ? range.x : -2.0, crossesMost() ? range.y : 2.0) - value) * per,
                             -halfWay, halfWay);
-    return 0.5 * (ends.x + ends.y);
+    return mix(min(ends.x, ends.y), max(ends.x, ends.y), share);
 }
 #endif
 

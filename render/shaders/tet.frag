@@ -66,7 +66,7 @@ void main() {
     const float perWeight = layers.style[kind.y].w, depthOfLight = perWeight * w, alpha = opacity(depthOfLight);
     const vec3 color = colorBetween(front, seenTo(front, back, depthOfLight, perWeight * most, met));
     const float halfWay = 0.5 * (to - from), depth = 0.5 * (from + to);
-    const float place = depth + inRange(value + depth * change, change, halfWay);
+    const float place = depth + inRange(value + depth * change, change, halfWay, depthOfLight);
     sum = vec4(lit(color, at + base * shift + place * along, offset, view.depths.z * longer) * alpha, alpha);
 #endif
 }

@@ -129,14 +129,14 @@ HWY_INLINE void light(Lanes lanes, const CellView& view, const TileRoom& room,
     const SeenCell& c = *block.cell;
     const LightLanes<Lanes> lit(lanes, view, c.steep);
     RayParts<Lanes> r = raysOf(lanes, block);
-    hn::Vec<Lanes> place = r.depth, gradient[3], diffuse, specular;
-    if (c.crossesLeast() || c.crossesMost())
-        place = hn::Add(place, inRange(lanes, c, hn::Load(lanes, block.value),
-                                       hn::Load(lanes, block.change), r.length));
+    hn::Vec<Lanes> gradient[3], diffuse, specular;
+    const auto factor = pixels.load(lanes, room.factor.data() + block.at);
+    const auto place = hn::Add(
+        r.depth, inRange(lanes, c, hn::Load(lanes, block.value), hn::Load(lanes, block.change),
+                         r.length, hn::Mul(hn::Load(lanes, block.weight), factor)));
     for (std::size_t a = 0; a < 3; ++a) r.middle[a] = hn::MulAdd(place, r.along[a], r.middle[a]);
     const auto change = slopesAt(lanes, c, *block.slopes, r, gradient);
-    lit.template shade<kLit>(view, gradient, change, r.along, c.perSize,
-                             pixels.load(lanes, room.factor.data() + block.at), diffuse, specular);
+    lit.template shade<kLit>(view, gradient, change, r.along, c.perSize, factor, diffuse, specular);
     hn::Store(diffuse, lanes, block.diffuse);
     hn::Store(specular, lanes, block.specular);
 }

@@ -141,20 +141,24 @@ struct CellLanes {
     }
 };
 
-// From the middle of a ray's way, where the field has that value and changes so, to the middle of
-// what lies in the range, as if it were linear along the ray.
+// From the middle of a ray's way, where the field has that value and changes so, to where, in the
+// mean, light leaves what lies in the range, as if it were linear along the ray: of an optical
+// depth x.
 template <class Lanes, class V = hn::Vec<Lanes>>
-HWY_INLINE V inRange(Lanes lanes, const SeenPiece& c, V value, V change, V length) {
+HWY_INLINE V inRange(Lanes lanes, const SeenPiece& c, V value, V change, V length, V x) {
     constexpr float kBeyond = 2;  // more than f can be
-    const V half = hn::Set(lanes, 0.5f), reach = hn::Mul(half, length);
+    const V share = shareFromFront(lanes, x), reach = hn::Mul(hn::Set(lanes, 0.5f), length);
+    if (!c.crossesLeast() && !c.crossesMost()) return hn::MulSub(share, length, reach);
     const V least = hn::Set(lanes, 1e-12f);
     const V per = reciprocal(lanes, hn::CopySign(hn::Max(hn::Abs(change), least), change));
     const auto at = [&](float bound) HWY_ATTR {
         const V way = hn::Mul(hn::Sub(hn::Set(lanes, bound), value), per);
         return hn::Min(hn::Max(way, hn::Neg(reach)), reach);
     };
-    return hn::Mul(half, hn::Add(at(c.crossesLeast() ? c.least : -kBeyond),
-                                 at(c.crossesMost() ? c.most : kBeyond)));
+    const V a = at(c.crossesLeast() ? c.least : -kBeyond),
+            b = at(c.crossesMost() ? c.most : kBeyond);
+    const V front = hn::Min(a, b), back = hn::Max(a, b);
+    return hn::MulAdd(share, hn::Sub(back, front), front);
 }
 
 // Where light comes from, if there is some.

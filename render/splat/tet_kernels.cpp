@@ -157,9 +157,9 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, const TetSlopes* 
             addWeight<kChannels>(pixels, lanes, t, room, at, [&](V* colors) HWY_ATTR {
                 if constexpr (kColors) color.between(front, back, colors);
                 if (slopes == nullptr) return;
-                V depth = middle, diffuse, specular;
-                if constexpr (kEnds > 0)
-                    depth = hn::Add(depth, inRange(lanes, c, value, change, length));
+                V diffuse, specular;
+                const V depth =
+                    hn::Add(middle, inRange(lanes, c, value, change, length, hn::Mul(t, factor)));
                 TetLight(view, *slopes).shade(view, ox, oy, base, depth, factor, diffuse, specular);
                 for (int k = 0; k < 3; ++k) colors[k] = hn::MulAdd(colors[k], diffuse, specular);
             });

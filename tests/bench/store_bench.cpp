@@ -145,7 +145,7 @@ void storeWrite(benchmark::State& state) {
     w.written = true;
     state.counters["points"] = static_cast<double>(w.points);
 }
-BENCHMARK(storeWrite)->ArgNames({"points"})->Arg(256)->Unit(benchmark::kMillisecond)->Iterations(3);
+BENCHMARK(storeWrite)->ArgNames({"points"})->Arg(256)->Unit(benchmark::kMillisecond)->Iterations(9);
 
 // A series of sorted steps opened, to the points of its first: a name each for one file.
 void storeSeries(benchmark::State& state) {
@@ -199,7 +199,7 @@ void storeRanks(benchmark::State& state) {
         state, [&] { index(2); }, [&] { index(1); });
     state.counters["points"] = static_cast<double>(w.points);
 }
-BENCHMARK(storeRanks)->ArgNames({"points"})->Arg(400)->Unit(benchmark::kMillisecond)->Iterations(3);
+BENCHMARK(storeRanks)->ArgNames({"points"})->Arg(400)->Unit(benchmark::kMillisecond)->Iterations(5);
 #endif
 
 }  // namespace

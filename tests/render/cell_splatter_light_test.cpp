@@ -8,6 +8,7 @@
 
 #include "render/model/cell_splat.h"
 #include "render/model/light.h"
+#include "render/reference/interval_truth.h"
 #include "render/splat/cell_view.h"
 #include "tests/support/lit_sphere.h"
 #include "tests/support/meshes.h"
@@ -94,6 +95,33 @@ TEST(CellSplatter, LightComesFromTheFrontOfWhatHidesItsBack) {
         EXPECT_NEAR(shareFromFront(x), wanted, 0.025) << x;
     }
     EXPECT_DOUBLE_EQ(shareFromFront(0.0), 0.5);
+}
+
+// A ball about the eye's surroundings, of few cells, each of which hides most of what is behind it:
+// its surface turns within a cell, so that the light of a cell's middle is another.
+TEST(CellSplatter, AndWhatLightFallsOnIsThatFront) {
+    const auto place = [](double i, double j, double k) { return glm::dvec3(i, j, k); };
+    const glm::dvec3 centre(6, 5.8, 5.5);
+    for (const auto& grid : {tests::cube(13), tests::curvilinear({13, 13, 13}, place)}) {
+        CellWorld world(
+            tests::stepOfPlaces(grid, [&](const auto& p) { return glm::distance(p, centre); }),
+            {"0.2:4.5"}, 0.97);
+        world.scene.order = Order::BackToFront;
+        const View view = tests::lookFrom(
+            world.placed.axesFromGrid(centre + glm::dvec3(0.9, -0.7, 0.3)), {48, 48});
+        const auto dark = drawn(world.scene, view, Channels::Over);
+        world.scene.light = Light::Soft;
+        const auto lit = drawn(world.scene, view, Channels::Over);
+        const auto truth = IntervalTruth(world.scene, world.scene.cells->field(), 1).light(view);
+        double off = 0;
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            ASSERT_GT(dark[4 * i + 3], 0.9f);
+            const double each = (double(lit[4 * i]) - truth[i].r) / double(dark[4 * i]);
+            EXPECT_LT(std::abs(each), 0.025);  // 0.109 of the middle's, of tetrahedra 0.034
+            off += each / double(truth.size());
+        }
+        EXPECT_LT(std::abs(off), 0.007);  // 0.043, of tetrahedra 0.012
+    }
 }
 
 // Of a shell that is thinner than what a pixel sees of the field, a pixel sees all values,
