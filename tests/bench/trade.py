@@ -213,7 +213,7 @@ through a whole range counts as much as its opacity says; beside the error what 
 
 def left_in(scenes):
     """What a moving picture does not leave out, and what that would buy."""
-    rows, truer, sooner = [], 0, 0
+    rows, shares, farther = [], [], 0
     for name, data in scenes:
         modes = data["figures"]["modes"]
         cells, coarse = (find(data["figures"], mode) for mode in ("cells", "coarse cells"))
@@ -221,15 +221,16 @@ def left_in(scenes):
         lit = next((m for m in modes if is_lit(m)), None)
         if not mixed or not lit or mixed is cells:
             continue
-        truer += coarse["rmse"] < mixed["rmse"]
-        sooner += coarse["frame"] < mixed["frame"]
-        rows.append([SCENES[name][1], f"{cells['rmse']:.1e}", f"{coarse['frame'] / cells['frame']:.2f}", f"{coarse['rmse']:.1e}",
-                     f"{mixed['frame'] / cells['frame']:.2f}", f"{mixed['rmse']:.1e}", f"{cells['frame'] / lit['frame']:.2f}"])
+        farther += mixed["rmse"] > coarse["rmse"]
+        shares.append((mixed["frame"] / cells["frame"], coarse["frame"] / cells["frame"], cells["frame"] / lit["frame"]))
+        rows.append([SCENES[name][1], f"{cells['rmse']:.1e}", f"{shares[-1][1]:.2f}", f"{coarse['rmse']:.1e}",
+                     f"{shares[-1][0]:.2f}", f"{mixed['rmse']:.1e}", f"{shares[-1][2]:.2f}"])
     if not rows:
         return ""
-    return f"""Order and light stay while a picture moves. Left out, order would save less time than coarse pixels do in {sooner} of {len(rows)} scenes, and the colours of the picture would be
-farther off in {truer}; light would save no more than a fifth to a quarter, and what moves would be another picture than what rests. Of the frame of cells in order, or
-of the frame with light, by length:
+    mixed, coarse, dark = (f"{min(s):.2f} to {max(s):.2f}" for s in zip(*shares))
+    return f"""Order and light stay while a picture moves. Without order cells would take {mixed} of their frame, in coarse pixels they take {coarse}; mixed colours are farther
+off than coarse ones in {farther} of {len(rows)} scenes, and nearer where a range is thin. Without light cells would take {dark} of their frame, and what moves would be another
+picture than what rests. Opacity is by length:
 
 {table(["scene", "cells: RMSE", "coarse cells: of the frame", "RMSE", "without order: of the frame", "RMSE", "without light: of the lit frame"], rows)}"""
 
