@@ -196,7 +196,7 @@ int tellIndexed(IndexedSteps done, StepStore& store) {
          {std::pair(StepMaker::Kept::Moves, "whose points move"),
           {StepMaker::Kept::Empty, "without a value"},
           {StepMaker::Kept::Changed, "whose files changed meanwhile, or are of the future"},
-          {StepMaker::Kept::Unknown, "of a format whose steps are sorted each time"},
+          {StepMaker::Kept::Unknown, "that are sorted each time"},
           {StepMaker::Kept::NoRoom, "for want of room"}})
         if (const std::size_t count = done.of(how); count > 0)
             others += fmt::format("{} {} {}", others.empty() ? "; not kept:" : ",", count, what);

@@ -331,7 +331,7 @@ TEST_F(StoresWithoutRoom, AtAnyLengthTellItAndHaveNothing) {
         giveRoom(room);
         const auto one = maker();
         const auto step = one->make(0);
-        one->writeOne([](double) { return true; });
+        one->writeOne(StepMaker::Again::Read, [](double) { return true; });
         EXPECT_THAT(store->takeNotes(), ElementsAre(HasSubstr("No space left on device: sorted")));
         EXPECT_FALSE(step->file());
         step_stores::expectField(*step, 100);

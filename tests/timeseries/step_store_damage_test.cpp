@@ -98,7 +98,7 @@ TEST_F(StepStores, AFolderThatCannotBeIsToldOnceAndTheProgramGoesOn) {
             std::make_shared<StepStore>(where, StoreKind::Cache, StepStore::kNoBudget, kAtOnce);
         const auto one = maker(in);
         const auto step = one->make(0);
-        one->writeOne([](double) { return true; });
+        one->writeOne(StepMaker::Again::Read, [](double) { return true; });
         EXPECT_THAT(in->takeNotes(), ElementsAre(HasSubstr("not kept")));
         const auto again = one->make(0);
         EXPECT_FALSE(one->hasUnwritten());

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <cerrno>
 #include <chrono>
+#include <system_error>
 #include <thread>
 
 #include "tests/support/step_stores.h"
@@ -195,7 +197,7 @@ TEST_F(StepStores, WhatChangesBetweenReadingAndWritingIsNotKept) {
     const auto step = one->make(0);
     ASSERT_TRUE(one->hasUnwritten());
     nrrdOf(file, 50);
-    one->writeOne([](double) { return true; });
+    one->writeOne(StepMaker::Again::Read, [](double) { return true; });
     EXPECT_EQ(files(), 0u);
     EXPECT_FALSE(one->hasUnwritten());
 }
@@ -207,7 +209,7 @@ TEST_F(StepStores, AStepThatIsLargerThanAllRoomIsTold) {
     const auto one = maker(small);
     const auto step = one->make(0);
     ASSERT_TRUE(one->hasUnwritten());
-    EXPECT_FALSE(one->writeOne([](double) { return true; }));
+    EXPECT_FALSE(one->writeOne(StepMaker::Again::Read, [](double) { return true; }));
     EXPECT_EQ(files(), 0u);
     EXPECT_THAT(small->takeNotes(), testing::ElementsAre(testing::HasSubstr(
                                         "steps may take less than one of these steps does")));
@@ -219,10 +221,10 @@ TEST_F(StepStores, WhatIsStoppedIsWrittenLater) {
     const auto one = maker();
     const auto step = one->make(0);
     int asked = 0;
-    one->writeOne([&](double) { return ++asked == 1; });
+    one->writeOne(StepMaker::Again::Read, [&](double) { return ++asked == 1; });
     EXPECT_EQ(files(), 0u);
     EXPECT_TRUE(one->hasUnwritten());
-    one->writeOne([](double) { return true; });
+    one->writeOne(StepMaker::Again::Read, [](double) { return true; });
     EXPECT_EQ(files(), 1u);
     EXPECT_FALSE(one->hasUnwritten());
 }
@@ -232,11 +234,99 @@ TEST_F(StepStores, WhatNobodyHoldsAnyMoreIsReadAgainAndWritten) {
     const auto one = maker();
     for (int i = 0; i < 2; ++i) (void)one->make(0);
     ASSERT_TRUE(one->hasUnwritten());
-    EXPECT_TRUE(one->writeOne([](double) { return true; }));
+    EXPECT_TRUE(one->writeOne(StepMaker::Again::Read, [](double) { return true; }));
     EXPECT_FALSE(one->hasUnwritten());
     const auto step = maker()->make(0);
     EXPECT_TRUE(step->file());
     expectField(*step, 100);
+}
+
+TEST_F(StepStores, WhatNobodyHoldsAnyMoreIsLeftWhereItMayNotBeReadAgain) {
+    const auto one = maker();
+    auto step = one->make(0);
+    EXPECT_TRUE(one->canWrite(StepMaker::Again::Leave));
+    step.reset();
+    EXPECT_FALSE(one->canWrite(StepMaker::Again::Leave));
+    EXPECT_TRUE(one->writeOne(StepMaker::Again::Leave, [](double) { return true; }));
+    EXPECT_TRUE(one->hasUnwritten());
+    EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(StepStores, WhatIsReadAgainIsNotSortedWhereSomebodyWaits) {
+    const auto one = maker();
+    (void)one->make(0);
+    int asked = 0;
+    EXPECT_TRUE(one->writeOne(StepMaker::Again::Read, [&](double) {
+        EXPECT_FALSE(fs::exists(folder / "steps")) << "a file is begun";
+        return ++asked == 1;
+    }));
+    EXPECT_EQ(asked, 2);
+    EXPECT_TRUE(one->hasUnwritten());
+    EXPECT_EQ(files(), 0u);
+}
+
+// A file's, of which each step is read once.
+class ReadOnce : public Reader {
+ public:
+    explicit ReadOnce(const fs::path& file) : reader_(openReader(std::span(&file, 1))) {}
+    std::string format() const override { return reader_->format(); }
+    std::span<const fs::path> files() const override { return reader_->files(); }
+    std::span<const Variable> variables() const override { return reader_->variables(); }
+    Field read(std::size_t variable, std::size_t step) override {
+        if (wasRead_) throw std::system_error(EAGAIN, std::generic_category());
+        wasRead_ = true;
+        return reader_->read(variable, step);
+    }
+    StepSources sources(std::size_t variable, std::size_t step) override {
+        return reader_->sources(variable, step);
+    }
+    StepGrids stepGrids(std::size_t) override { throw FileError("another step's"); }
+
+ private:
+    const std::unique_ptr<Reader> reader_;
+    bool wasRead_ = false;
+};
+
+TEST_F(StepStores, WhatCannotBeReadAgainForWhateverReasonStaysAsItIs) {
+    StepMaker one(std::make_unique<ReadOnce>(file), 0, RangeSet::everything(),
+                  timeseries::StepStores{{store}, store, 1});
+    (void)one.make(0);
+    EXPECT_TRUE(one.writeOne(StepMaker::Again::Read, [](double) { return true; }));
+    EXPECT_FALSE(one.hasUnwritten());
+    EXPECT_EQ(files(), 0u);
+    EXPECT_THAT(store->takeNotes(), IsEmpty());
+}
+
+TEST_F(StepStores, AStepWithoutOriginDoesNotFailForAnother) {
+    ReadOnce reader(file);
+    EXPECT_EQ(StepMaker::keptWithoutOrigin(reader, 0), StepMaker::Kept::Unknown);
+}
+
+TEST_F(StepStores, AChangedStepIsSaidToBeSortedAnewWhereItIs) {
+    ASSERT_EQ(maker()->keep(0), StepMaker::Kept::Written);
+    std::string bytes = tests::readBytes(file);
+    std::fill(bytes.end() - 24 * 24 * 24 * sizeof(float), bytes.end(), '\xff');  // NaN
+    tests::writeBytes(file, bytes);
+    EXPECT_EQ(maker()->keep(0), StepMaker::Kept::Empty);
+    EXPECT_THAT(store->takeNotes(), IsEmpty());
+    nrrdOf(file, 50);
+    EXPECT_EQ(maker()->keep(0), StepMaker::Kept::Written);
+    EXPECT_THAT(store->takeNotes(), testing::ElementsAre(testing::HasSubstr("sorted anew")));
+}
+
+// Of a simulation that was run again.
+TEST_F(StepStores, WhatNobodyHoldsAnyMoreIsWrittenOverWhatItReplaces) {
+    ASSERT_EQ(maker()->keep(0), StepMaker::Kept::Written);
+    const std::uint64_t bytes = store->list().at(0).bytes;
+    nrrdOf(file, 50);
+    // Its list in memory takes 8 bytes a point: more than is free, without what leaves for it.
+    const auto small = std::make_shared<StepStore>(
+        folder / "steps", StoreKind::Cache, std::uint64_t{24} * 24 * 24 * 8 + bytes / 2, kAtOnce);
+    const auto one = maker(small);
+    (void)one->make(0);
+    EXPECT_TRUE(one->writeOne(StepMaker::Again::Read, [](double) { return true; }));
+    EXPECT_TRUE(maker(small)->make(0)->file());
+    EXPECT_EQ(files(), 1u);
 }
 
 TEST_F(StepStores, WhatSomebodyHoldsIsWrittenFirst) {
@@ -245,11 +335,12 @@ TEST_F(StepStores, WhatSomebodyHoldsIsWrittenFirst) {
                      timeseries::StepStores{{store}, store, 1});
     (void)series.make(0);
     const auto held = series.make(1);
-    series.writeOne([](double) { return true; });
+    series.writeOne(StepMaker::Again::Read, [](double) { return true; });
     EXPECT_TRUE(series.hasUnwritten());
     EXPECT_TRUE(series.make(1)->file());
     fs::remove(both[0]);
-    EXPECT_TRUE(series.writeOne([](double) { return true; })) << "told where it is looked at";
+    EXPECT_TRUE(series.writeOne(StepMaker::Again::Read, [](double) { return true; }))
+        << "told where it is looked at";
     EXPECT_FALSE(series.hasUnwritten());
     EXPECT_EQ(files(), 1u);
     EXPECT_THAT(store->takeNotes(), IsEmpty());
@@ -268,7 +359,7 @@ TEST_F(StepStores, WhatNobodyHoldsAnyMoreTakesNoRoomOfOthers) {
     ASSERT_EQ(first.keep(0), StepMaker::Kept::Written);
     const auto one = maker(small);
     (void)one->make(0);
-    EXPECT_TRUE(one->writeOne([](double) { return true; }));
+    EXPECT_TRUE(one->writeOne(StepMaker::Again::Read, [](double) { return true; }));
     EXPECT_FALSE(one->hasUnwritten());
     EXPECT_TRUE(first.make(0)->file());
     EXPECT_EQ(files(), 1u);

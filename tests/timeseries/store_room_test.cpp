@@ -127,7 +127,8 @@ TEST_F(StoreRooms, WhatIsHeldMakesNoRoom) {
 TEST_F(StoreRooms, WhatWasUsedBeforeTheClockWasSetBackLeavesFirst) {
     for (int i = 0; i < 4; ++i) {
         write(i);
-        fs::last_write_time(nameOf(i), fs::file_time_type::clock::now() + std::chrono::hours(24));
+        fs::last_write_time(nameOf(i), fs::file_time_type::clock::now() + std::chrono::hours(24) -
+                                           std::chrono::minutes(i));
     }
     StoreRoom room(folder, 4 * kBytes, std::chrono::milliseconds(0));  // counts each time
     const auto add = [&](int i) {
@@ -139,6 +140,7 @@ TEST_F(StoreRooms, WhatWasUsedBeforeTheClockWasSetBackLeavesFirst) {
         add(i);
         EXPECT_EQ(held(), 4 * kBytes);
         for (int j = 10; j <= i; ++j) EXPECT_TRUE(fs::exists(nameOf(j))) << j << " after " << i;
+        EXPECT_FALSE(fs::exists(nameOf(13 - i))) << "that was used before the others";
     }
     add(14);
     EXPECT_FALSE(fs::exists(nameOf(10)));

@@ -63,6 +63,7 @@ void StepLoader::want(std::vector<std::size_t> mostUrgentFirst, Haste haste, Ran
             underWay[step] = true;  // each once
             wishes_.push_back(step);
         }
+        if (!wishes_.empty()) calmFrom_ = std::chrono::steady_clock::now() + kCalm;
     }
     work_.notify_one();
 }
@@ -97,12 +98,20 @@ std::optional<LoadResult> StepLoader::takeFirst() {
 void StepLoader::run(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     const auto something = [this] {
-        return mayBegin() || (wishes_.empty() && maker_.hasUnwritten());
+        return mayBegin() || (wishes_.empty() && maker_.canWrite(again()));
     };
-    while (work_.wait(lock, stop, something) && !stop.stop_requested()) {
+    while (!stop.stop_requested()) {
+        if (!something()) {
+            if (wishes_.empty() && maker_.hasUnwritten())
+                work_.wait_until(lock, stop, calmFrom_, something);
+            else
+                work_.wait(lock, stop, something);
+            continue;
+        }
         if (!mayBegin()) {
+            const StepMaker::Again how = again();
             lock.unlock();
-            write(stop);
+            write(how, stop);
             lock.lock();
             continue;
         }
@@ -114,11 +123,12 @@ void StepLoader::run(const std::stop_token& stop) {
         LoadResult result = load(step, looked);
         lock.lock();
         reading_.reset();
+        calmFrom_ = std::chrono::steady_clock::now() + kCalm;
         results_.push_back(std::move(result));
         done_.notify_one();
         lock.unlock();
         wake_();
-        write(stop);
+        write(StepMaker::Again::Leave, stop);
         lock.lock();
     }
 }
@@ -129,9 +139,14 @@ bool StepLoader::mayBegin() const {
            results_.size() - little < kMostResults;
 }
 
+StepMaker::Again StepLoader::again() const {
+    return std::chrono::steady_clock::now() < calmFrom_ ? StepMaker::Again::Leave
+                                                        : StepMaker::Again::Read;
+}
+
 // What is there to be written, as long as nobody waits for anything else.
-void StepLoader::write(const std::stop_token& stop) {
-    const bool keeps = maker_.writeOne([&](double) {
+void StepLoader::write(StepMaker::Again again, const std::stop_token& stop) {
+    const bool keeps = maker_.writeOne(again, [&](double) {
         const std::lock_guard lock(mutex_);
         return !stop.stop_requested() && (wishes_.empty() || haste_ == Haste::Nobody);
     });

@@ -44,7 +44,7 @@ enum class Ready {
 
 // Members may be called from one thread at a time: the main one. The Reader is used by the loader's
 // own thread and nobody else. Destruction waits for a read that is running, no longer, and drops
-// its result.
+// its result; a read may also be of a step that was sorted before and is to be written.
 class StepLoader {
  public:
     // REQUIRES: variable < reader->variables().size(). `asked` is StepMaker's. `wake` is called
@@ -61,6 +61,9 @@ class StepLoader {
     // Results that wait to be polled, at most: of steps on disk of which little is in memory. Of
     // others there are two.
     static constexpr std::size_t kMostAhead = 32;
+    // Nothing was wished for so long before a step is read again to be written: who wishes then
+    // waits for that.
+    static constexpr std::chrono::seconds kCalm{1};
 
     std::size_t stepCount() const { return stepCount_; }
 
@@ -84,8 +87,9 @@ class StepLoader {
  private:
     void run(const std::stop_token& stop);
     LoadResult load(std::size_t step, const RangeSet& looked);
-    bool mayBegin() const;  // REQUIRES: mutex_ is held
-    void write(const std::stop_token& stop);
+    bool mayBegin() const;           // REQUIRES: mutex_ is held
+    StepMaker::Again again() const;  // REQUIRES: mutex_ is held
+    void write(StepMaker::Again again, const std::stop_token& stop);
     bool idle() const;                      // REQUIRES: mutex_ is held
     std::optional<LoadResult> takeFirst();  // REQUIRES: mutex_ is held
 
@@ -103,6 +107,7 @@ class StepLoader {
     RangeSet looked_;
     std::optional<std::size_t> reading_;
     std::deque<LoadResult> results_;
+    std::chrono::steady_clock::time_point calmFrom_{};  // unless more is wished before
 
     std::jthread thread_;  // last: it ends before what it uses
 };

@@ -95,7 +95,7 @@ SortedStep StepMaker::sorted(Field field) const {
     return SortedStep::build(std::move(field), asked_);
 }
 
-Field StepMaker::read(std::size_t step, bool changed) {
+Field StepMaker::read(std::size_t step) {
     std::vector<std::filesystem::path> files = reader_->sources(variable_, step).files;
     // A reader that does not know which they are may have few.
     if (files.empty() && reader_->files().size() <= OpenedFiles::kFew)
@@ -103,10 +103,12 @@ Field StepMaker::read(std::size_t step, bool changed) {
     opened_.expectSame(files);
     Field field = reader_->read(variable_, step);
     opened_.expectSame(files);
-    // Of thousands the first.
-    if (changed && !std::exchange(toldChanged_, true))
-        stores_.read.front()->tellChanged(files.front());
     return field;
+}
+
+void StepMaker::tellSortedAnew(const StepOrigin& origin) {
+    if (!std::exchange(toldChanged_, true))  // of thousands the first
+        stores_.read.front()->tellChanged(origin.files.front());
 }
 
 std::optional<StepOrigin> originOf(Reader& reader, std::size_t variable, std::size_t step) {
@@ -163,7 +165,8 @@ std::shared_ptr<const SortedStep> StepMaker::make(std::size_t step) {
         if (auto found = find(*origin, step, &changed)) return found;
     std::optional<OriginStamp> stamp;
     if (origin && stores_.write) stamp = stores_.write->stampOf(*origin);
-    auto made = std::make_shared<const SortedStep>(sorted(read(step, changed)));
+    auto made = std::make_shared<const SortedStep>(sorted(read(step)));
+    if (changed) tellSortedAnew(*origin);
     // Where a step has places of its own, the file would not have them.
     if (stamp && made->kept() == RangeSet::everything() &&
         made->size() >= std::max<std::uint64_t>(stores_.worthWriting, 1) &&
@@ -182,7 +185,8 @@ StepMaker::Kept StepMaker::keep(std::size_t step, const GoOn& goOn) {
         return Kept::Before;
     std::optional<OriginStamp> stamp;
     if (origin && stores_.write) stamp = stores_.write->stampOf(*origin);
-    const Field field = read(step, changed);
+    const Field field = read(step);
+    if (origin && goOn && !goOn(0)) return keptAs(StepStore::Wrote::Nothing, *origin);
     if (!hasValue(field)) return Kept::Empty;
     if (field.grid != variable().grid) return Kept::Moves;
     if (!origin) return keptWithoutOrigin(*reader_, variable_);
@@ -190,12 +194,17 @@ StepMaker::Kept StepMaker::keep(std::size_t step, const GoOn& goOn) {
         expectThere(*origin);
         return Kept::Unknown;
     }
+    if (changed) tellSortedAnew(*origin);
     const auto into = [&](WholeFile& file) { return writeField(field, stamp->text, file, goOn); };
     return keptAs(stores_.write->write(*origin, *stamp, reader_->openedAt, into), *origin);
 }
 
 StepMaker::Kept StepMaker::keptWithoutOrigin(Reader& reader, std::size_t variable) {
-    return reader.stepGrids(variable).are == StepGrids::Are::One ? Kept::Unknown : Kept::Moves;
+    try {
+        return reader.stepGrids(variable).are == StepGrids::Are::One ? Kept::Unknown : Kept::Moves;
+    } catch (const FileError&) {  // of another step
+        return Kept::Unknown;
+    }
 }
 
 StepMaker::Kept StepMaker::keptAs(StepStore::Wrote wrote, const StepOrigin& origin) const {
@@ -222,7 +231,8 @@ StepStore::Wrote StepMaker::write(const Unwritten& one, const GoOn& goOn) {
     if (const auto sorted = one.sorted.lock())
         return stores_.write->write(one.origin, one.stamp, *sorted, reader_->openedAt, goOn);
     // What it would push out may be as much in use.
-    if (!stores_.write->room().isFree(one.bytes)) return StepStore::Wrote::Nothing;
+    const auto file = stores_.write->pathOf(one.origin);
+    if (!stores_.write->room().isFree(file, one.bytes)) return StepStore::Wrote::Nothing;
     try {
         return keep(one.step, goOn) == Kept::NoRoom ? StepStore::Wrote::NoRoom
                                                     : StepStore::Wrote::All;
@@ -231,11 +241,14 @@ StepStore::Wrote StepMaker::write(const Unwritten& one, const GoOn& goOn) {
     }
 }
 
-bool StepMaker::writeOne(const GoOn& goOn) {
-    if (!hasUnwritten() || !goOn(0)) return true;
-    const auto inUse = std::ranges::find_if(
-        unwritten_, [](const Unwritten& each) { return !each.sorted.expired(); });
-    const auto next = inUse == unwritten_.end() ? unwritten_.begin() : inUse;
+bool StepMaker::canWrite(Again again) const {
+    return again == Again::Read ? !unwritten_.empty() : std::ranges::any_of(unwritten_, isInUse);
+}
+
+bool StepMaker::writeOne(Again again, const GoOn& goOn) {
+    auto next = std::ranges::find_if(unwritten_, isInUse);
+    if (next == unwritten_.end() && again == Again::Read) next = unwritten_.begin();
+    if (next == unwritten_.end() || !goOn(0)) return true;
     bool stopped = false;
     const auto whileMeant = [&](double share) { return !(stopped = !goOn(share)); };
     const auto giveUp = [&](const std::string& why) {
@@ -251,7 +264,7 @@ bool StepMaker::writeOne(const GoOn& goOn) {
                             stores_.write->folder().string()));
     } catch (const StepFileError& error) {
         return giveUp(error.what());
-    } catch (const std::bad_alloc&) {  // it stays in memory alone
+    } catch (const std::exception&) {  // as for want of memory: it stays in memory alone
     }
     if (!stopped) unwritten_.erase(next);
     return true;

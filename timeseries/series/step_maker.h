@@ -54,17 +54,20 @@ class StepMaker {
     // kept.
     using GoOn = std::function<bool(double)>;
     Kept keep(std::size_t step, const GoOn& goOn = {});
-    // Of steps that have no origin: Unknown, or Moves. Throws FileError.
+    // Of steps that have no origin: Unknown, or Moves.
     static Kept keptWithoutOrigin(Reader& reader, std::size_t variable);
     // As keep() where there is no room: without sorting.
     Kept keepNoMore(std::size_t step);
 
-    // Steps that were sorted and are worth writing.
+    // Of steps that were sorted and are worth writing, those that nobody has any more are left, or
+    // read again, unless there is no room for them but that of others.
+    enum class Again { Leave, Read };
     bool hasUnwritten() const { return !unwritten_.empty(); }
-    // Writes one of them, if there is one, while goOn() says so; else it stays unwritten. Those
-    // still in use come first; another one is read again, unless there is no room for it but that
-    // of others. What cannot be written is told by the store, and nothing more is: false then.
-    bool writeOne(const GoOn& goOn);
+    bool canWrite(Again again) const;
+    // Writes one of them, if there is one, while goOn() says so, which is not asked while it is
+    // read; else it stays unwritten. Those still in use come first. What cannot be written is told
+    // by the store, and nothing more is: false then.
+    bool writeOne(Again again, const GoOn& goOn);
 
  private:
     struct Unwritten {
@@ -74,14 +77,16 @@ class StepMaker {
         std::weak_ptr<const SortedStep> sorted;
         std::uint64_t bytes;  // of its list in memory, which is more than it takes on disk
     };
+    static bool isInUse(const Unwritten& one) { return !one.sorted.expired(); }
     StepStore::Wrote write(const Unwritten& one, const GoOn& goOn);
     // `changed`: as StepStore::find().
     std::shared_ptr<const SortedStep> find(const StepOrigin& origin, std::size_t step,
                                            bool* changed = nullptr);
     Kept keptAs(StepStore::Wrote wrote, const StepOrigin& origin) const;
     SortedStep sorted(Field field) const;
-    // Of files that have not changed, before or meanwhile; told where it was sorted and `changed`.
-    Field read(std::size_t step, bool changed);
+    // Of files that have not changed, before or meanwhile.
+    Field read(std::size_t step);
+    void tellSortedAnew(const StepOrigin& origin);
 
     const std::unique_ptr<Reader> reader_;
     const std::shared_ptr<const std::vector<std::filesystem::path>> files_;  // the reader's

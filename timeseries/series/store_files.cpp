@@ -1,5 +1,6 @@
 #include "timeseries/series/store_files.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -29,6 +30,15 @@ std::int64_t nanosecondsOf(const timespec& at) {
 Clock::time_point timeOf(const timespec& at) {
     return Clock::time_point(
         std::chrono::duration_cast<Clock::duration>(std::chrono::nanoseconds(nanosecondsOf(at))));
+}
+
+void setUse(const StoredFile& file) {
+    using std::chrono::nanoseconds;
+    const auto since = std::chrono::duration_cast<nanoseconds>(file.used.time_since_epoch());
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(since);
+    const timespec at{seconds.count(), (since - seconds).count()};
+    const std::array both{at, at};
+    (void)::utimensat(AT_FDCWD, file.path.c_str(), both.data(), 0);
 }
 
 bool isStored(const fs::path& path) {

@@ -25,6 +25,9 @@ std::vector<StoredFile> storedFiles(const std::filesystem::path& folder);
 // a step, or somebody a text. What else is damaged in it does not count.
 bool isOfStore(const std::filesystem::path& path);
 
+// Says on the disk when it was used, where that can be written.
+void setUse(const StoredFile& file);
+
 // As the system's clock has it.
 std::int64_t nanosecondsOf(const timespec& at);
 std::chrono::system_clock::time_point timeOf(const timespec& at);

@@ -1,6 +1,5 @@
 #include "timeseries/series/store_room.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -20,12 +19,17 @@ constexpr int kTimesLonger = 20;
 // whose clock is not ours.
 constexpr std::chrono::minutes kAhead{1};
 
-// Until that time came, the file would leave after all that are used meanwhile: it is used now.
-std::chrono::system_clock::time_point useOf(const StoredFile& file,
-                                            std::chrono::system_clock::time_point now) {
-    if (file.used <= now + kAhead) return file.used;
-    (void)::utimensat(AT_FDCWD, file.path.c_str(), nullptr, 0);
-    return now;
+// Until that time came, such files would leave after all that are used meanwhile: they are used
+// now, in their order.
+void bringBack(std::vector<StoredFile>& files) {
+    const auto now = std::chrono::system_clock::now();
+    std::ranges::sort(files, std::greater(), &StoredFile::used);
+    auto used = now;
+    for (StoredFile& file : files) {
+        if (file.used <= now + kAhead) break;
+        file.used = used -= std::chrono::microseconds(1);
+        setUse(file);
+    }
 }
 
 }  // namespace
@@ -37,10 +41,7 @@ bool StoreRoom::make(const fs::path& file, std::uint64_t bytes) {
     if (budget_ == kNoBudget) return true;
     const std::lock_guard lock(mutex_);
     if (std::chrono::steady_clock::now() >= nextCount_) count();
-    const auto needed = [&] {
-        const auto there = files_.find(file);  // it is written over
-        return bytes_ + bytes - (there == files_.end() ? 0 : there->second.bytes);
-    };
+    const auto needed = [&] { return bytesWithout(file) + bytes; };
     if (needed() > budget_) askWhichAreHeld();
     const bool fits = needed() <= budget_ || bytesBesideHeld(file) + bytes <= budget_;
     while (fits && needed() > budget_ && removeOldest()) {
@@ -53,11 +54,17 @@ bool StoreRoom::make(const fs::path& file, std::uint64_t bytes) {
     return true;
 }
 
-bool StoreRoom::isFree(std::uint64_t bytes) {
+bool StoreRoom::isFree(const fs::path& file, std::uint64_t bytes) {
     if (budget_ == kNoBudget) return true;
     const std::lock_guard lock(mutex_);
     if (std::chrono::steady_clock::now() >= nextCount_) count();
-    return bytes_ <= budget_ && bytes <= budget_ - bytes_;
+    return bytesWithout(file) + bytes <= budget_;
+}
+
+// Which is written over.
+std::uint64_t StoreRoom::bytesWithout(const fs::path& file) const {
+    const auto there = files_.find(file);
+    return bytes_ - (there == files_.end() ? 0 : there->second.bytes);
 }
 
 std::uint64_t StoreRoom::bytesBesideHeld(const fs::path& file) const {
@@ -124,9 +131,9 @@ void StoreRoom::count() {
     byUse_.clear();
     bytes_ = 0;
     heldThere_ = {};
-    const auto now = std::chrono::system_clock::now();
-    for (const StoredFile& file : storedFiles(folder_))
-        put(file.path, {file.bytes, useOf(file, now)});
+    std::vector<StoredFile> files = storedFiles(folder_);
+    bringBack(files);
+    for (const StoredFile& file : files) put(file.path, {file.bytes, file.used});
     const auto end = std::chrono::steady_clock::now();
     nextCount_ = end + std::max<std::chrono::steady_clock::duration>(betweenCounts_,
                                                                      kTimesLonger * (end - begin));

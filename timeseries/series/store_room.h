@@ -32,8 +32,8 @@ class StoreRoom {
     // Makes room for this file of so many bytes, and takes it as written: those used last stay.
     // False, and none leaves, where it does not fit beside those that are held.
     bool make(const std::filesystem::path& file, std::uint64_t bytes);
-    // Whether so many bytes fit without any leaving.
-    bool isFree(std::uint64_t bytes);
+    // Whether this file of so many bytes fits without any other leaving.
+    bool isFree(const std::filesystem::path& file, std::uint64_t bytes);
     // Those of one request do not make room for each other. Which they are is asked when one has to
     // leave, once.
     void hold(std::function<std::vector<std::filesystem::path>()> which);
@@ -59,6 +59,7 @@ class StoreRoom {
     void put(const std::filesystem::path& file, Counted as);
     void forget(const std::filesystem::path& file);
     void askWhichAreHeld();
+    std::uint64_t bytesWithout(const std::filesystem::path& file) const;
     std::uint64_t bytesBesideHeld(const std::filesystem::path& file) const;
     // Unless it turns out to have been used later than another. False where there is none.
     bool removeOldest();
