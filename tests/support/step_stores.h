@@ -47,6 +47,10 @@ class StepStores : public testing::Test {
         return std::make_unique<StepMaker>(std::move(reader), 0, RangeSet::everything(),
                                            timeseries::StepStores{{in}, in, 1});
     }
+    // Or what is written within one tick of the clock would be taken for the same.
+    void agedBy(std::chrono::hours before) const {
+        fs::last_write_time(file, fs::file_time_type::clock::now() - before);
+    }
     StepOrigin originOf(const fs::path& of) const {
         return {
             {of}, 0, of.stem().string(), openReader(std::span(&of, 1))->variables()[0].storedAs};

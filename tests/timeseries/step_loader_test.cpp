@@ -311,6 +311,20 @@ TEST_F(StepLoaderWrites, AlsoThoseThatHaveLeftMemory) {
     EXPECT_GE(std::chrono::steady_clock::now() - before, StepLoader::kCalm);
 }
 
+TEST_F(StepLoaderWrites, TheseNotBeforeASecondWithoutWishes) {
+    wantAll(StepLoader::Haste::Waited);
+    takeAll(Each::Leaves);
+    auto last = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < 30; ++i) {
+        std::this_thread::sleep_for(10ms);
+        last = std::chrono::steady_clock::now();
+        loader_->want({i % kSteps}, StepLoader::Haste::Waited);
+        EXPECT_TRUE(loader_->waitAndPoll());
+    }
+    expectAllWritten();
+    EXPECT_GE(std::chrono::steady_clock::now() - last, StepLoader::kCalm);
+}
+
 TEST_F(StepLoaderWrites, AsTheyComeWhereNobodyWaits) {
     wantAll(StepLoader::Haste::Nobody);
     EXPECT_GE(store->list().size(), 1u) << "with four steps to come";

@@ -193,6 +193,7 @@ TEST_F(StepStores, WhatHasJustChangedIsNotKept) {
 }
 
 TEST_F(StepStores, WhatChangesBetweenReadingAndWritingIsNotKept) {
+    agedBy(std::chrono::hours(1));
     const auto one = maker();
     const auto step = one->make(0);
     ASSERT_TRUE(one->hasUnwritten());
@@ -268,7 +269,11 @@ TEST_F(StepStores, WhatIsReadAgainIsNotSortedWhereSomebodyWaits) {
 // A file's, of which each step is read once.
 class ReadOnce : public Reader {
  public:
-    explicit ReadOnce(const fs::path& file) : reader_(openReader(std::span(&file, 1))) {}
+    enum class Sources { Known, Unknown };
+    explicit ReadOnce(const fs::path& file, Sources sources = Sources::Known)
+        : reader_(openReader(std::span(&file, 1))), sources_(sources) {
+        openedAt = reader_->openedAt;
+    }
     std::string format() const override { return reader_->format(); }
     std::span<const fs::path> files() const override { return reader_->files(); }
     std::span<const Variable> variables() const override { return reader_->variables(); }
@@ -278,12 +283,13 @@ class ReadOnce : public Reader {
         return reader_->read(variable, step);
     }
     StepSources sources(std::size_t variable, std::size_t step) override {
-        return reader_->sources(variable, step);
+        return sources_ == Sources::Known ? reader_->sources(variable, step) : StepSources{};
     }
     StepGrids stepGrids(std::size_t) override { throw FileError("another step's"); }
 
  private:
     const std::unique_ptr<Reader> reader_;
+    const Sources sources_;
     bool wasRead_ = false;
 };
 
@@ -291,22 +297,39 @@ TEST_F(StepStores, WhatCannotBeReadAgainForWhateverReasonStaysAsItIs) {
     StepMaker one(std::make_unique<ReadOnce>(file), 0, RangeSet::everything(),
                   timeseries::StepStores{{store}, store, 1});
     (void)one.make(0);
+    ASSERT_TRUE(one.hasUnwritten());
     EXPECT_TRUE(one.writeOne(StepMaker::Again::Read, [](double) { return true; }));
     EXPECT_FALSE(one.hasUnwritten());
     EXPECT_EQ(files(), 0u);
     EXPECT_THAT(store->takeNotes(), IsEmpty());
 }
 
+TEST_F(StepStores, WhatIsLetGoOnceItIsToBeWrittenIsNotReadAgain) {
+    StepMaker one(std::make_unique<ReadOnce>(file), 0, RangeSet::everything(),
+                  timeseries::StepStores{{store}, store, 1});
+    auto step = one.make(0);
+    EXPECT_TRUE(one.writeOne(StepMaker::Again::Leave, [&](double) {
+        step.reset();
+        return true;
+    }));
+    EXPECT_EQ(files(), 1u);
+}
+
 TEST_F(StepStores, AStepWithoutOriginDoesNotFailForAnother) {
-    ReadOnce reader(file);
-    EXPECT_EQ(StepMaker::keptWithoutOrigin(reader, 0), StepMaker::Kept::Unknown);
+    StepMaker one(std::make_unique<ReadOnce>(file, ReadOnce::Sources::Unknown), 0,
+                  RangeSet::everything(), timeseries::StepStores{{store}, store, 1});
+    EXPECT_EQ(one.keep(0), StepMaker::Kept::Unknown);
+    EXPECT_THROW((void)one.keepNoMore(0), FileError)
+        << "that it has no origin is all that is known";
 }
 
 TEST_F(StepStores, AChangedStepIsSaidToBeSortedAnewWhereItIs) {
+    agedBy(std::chrono::hours(2));
     ASSERT_EQ(maker()->keep(0), StepMaker::Kept::Written);
     std::string bytes = tests::readBytes(file);
     std::fill(bytes.end() - 24 * 24 * 24 * sizeof(float), bytes.end(), '\xff');  // NaN
     tests::writeBytes(file, bytes);
+    agedBy(std::chrono::hours(1));
     EXPECT_EQ(maker()->keep(0), StepMaker::Kept::Empty);
     EXPECT_THAT(store->takeNotes(), IsEmpty());
     nrrdOf(file, 50);
@@ -316,6 +339,7 @@ TEST_F(StepStores, AChangedStepIsSaidToBeSortedAnewWhereItIs) {
 
 // Of a simulation that was run again.
 TEST_F(StepStores, WhatNobodyHoldsAnyMoreIsWrittenOverWhatItReplaces) {
+    agedBy(std::chrono::hours(1));
     ASSERT_EQ(maker()->keep(0), StepMaker::Kept::Written);
     const std::uint64_t bytes = store->list().at(0).bytes;
     nrrdOf(file, 50);
@@ -324,6 +348,7 @@ TEST_F(StepStores, WhatNobodyHoldsAnyMoreIsWrittenOverWhatItReplaces) {
         folder / "steps", StoreKind::Cache, std::uint64_t{24} * 24 * 24 * 8 + bytes / 2, kAtOnce);
     const auto one = maker(small);
     (void)one->make(0);
+    ASSERT_TRUE(one->hasUnwritten());
     EXPECT_TRUE(one->writeOne(StepMaker::Again::Read, [](double) { return true; }));
     EXPECT_TRUE(maker(small)->make(0)->file());
     EXPECT_EQ(files(), 1u);

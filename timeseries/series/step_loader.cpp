@@ -102,8 +102,9 @@ void StepLoader::run(const std::stop_token& stop) {
     };
     while (!stop.stop_requested()) {
         if (!something()) {
+            const auto calm = calmFrom_;  // a copy: it is read while others may change it
             if (wishes_.empty() && maker_.hasUnwritten())
-                work_.wait_until(lock, stop, calmFrom_, something);
+                work_.wait_until(lock, stop, calm, something);
             else
                 work_.wait(lock, stop, something);
             continue;

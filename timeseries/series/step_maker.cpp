@@ -189,7 +189,13 @@ StepMaker::Kept StepMaker::keep(std::size_t step, const GoOn& goOn) {
     if (origin && goOn && !goOn(0)) return keptAs(StepStore::Wrote::Nothing, *origin);
     if (!hasValue(field)) return Kept::Empty;
     if (field.grid != variable().grid) return Kept::Moves;
-    if (!origin) return keptWithoutOrigin(*reader_, variable_);
+    if (!origin) {
+        try {
+            return keptWithoutOrigin(*reader_, variable_);
+        } catch (const FileError&) {  // of another step
+            return Kept::Unknown;
+        }
+    }
     if (!stamp || kept_ != RangeSet::everything() || field.type() != variable().type) {
         expectThere(*origin);
         return Kept::Unknown;
@@ -200,11 +206,7 @@ StepMaker::Kept StepMaker::keep(std::size_t step, const GoOn& goOn) {
 }
 
 StepMaker::Kept StepMaker::keptWithoutOrigin(Reader& reader, std::size_t variable) {
-    try {
-        return reader.stepGrids(variable).are == StepGrids::Are::One ? Kept::Unknown : Kept::Moves;
-    } catch (const FileError&) {  // of another step
-        return Kept::Unknown;
-    }
+    return reader.stepGrids(variable).are == StepGrids::Are::One ? Kept::Unknown : Kept::Moves;
 }
 
 StepMaker::Kept StepMaker::keptAs(StepStore::Wrote wrote, const StepOrigin& origin) const {
@@ -227,8 +229,9 @@ StepMaker::Kept StepMaker::keepNoMore(std::size_t step) {
     return find(*origin, step) ? Kept::Before : Kept::NoRoom;
 }
 
-StepStore::Wrote StepMaker::write(const Unwritten& one, const GoOn& goOn) {
-    if (const auto sorted = one.sorted.lock())
+StepStore::Wrote StepMaker::write(const Unwritten& one, const SortedStep* sorted,
+                                  const GoOn& goOn) {
+    if (sorted)
         return stores_.write->write(one.origin, one.stamp, *sorted, reader_->openedAt, goOn);
     // What it would push out may be as much in use.
     const auto file = stores_.write->pathOf(one.origin);
@@ -246,7 +249,9 @@ bool StepMaker::canWrite(Again again) const {
 }
 
 bool StepMaker::writeOne(Again again, const GoOn& goOn) {
-    auto next = std::ranges::find_if(unwritten_, isInUse);
+    std::shared_ptr<const SortedStep> held;  // nobody lets go of it meanwhile
+    auto next = std::ranges::find_if(
+        unwritten_, [&](const Unwritten& one) { return (held = one.sorted.lock()) != nullptr; });
     if (next == unwritten_.end() && again == Again::Read) next = unwritten_.begin();
     if (next == unwritten_.end() || !goOn(0)) return true;
     bool stopped = false;
@@ -258,13 +263,13 @@ bool StepMaker::writeOne(Again again, const GoOn& goOn) {
         return false;
     };
     try {
-        if (write(*next, whileMeant) == StepStore::Wrote::NoRoom)
+        if (write(*next, held.get(), whileMeant) == StepStore::Wrote::NoRoom)
             return giveUp(
                 fmt::format("{} may take less than one of these steps does (--cache-size)",
                             stores_.write->folder().string()));
     } catch (const StepFileError& error) {
         return giveUp(error.what());
-    } catch (const std::exception&) {  // as for want of memory: it stays in memory alone
+    } catch (const std::exception&) {  // as for want of memory: it stays unwritten
     }
     if (!stopped) unwritten_.erase(next);
     return true;

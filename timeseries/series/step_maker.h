@@ -54,7 +54,7 @@ class StepMaker {
     // kept.
     using GoOn = std::function<bool(double)>;
     Kept keep(std::size_t step, const GoOn& goOn = {});
-    // Of steps that have no origin: Unknown, or Moves.
+    // Of steps that have no origin: Unknown, or Moves. Throws FileError, of any of them.
     static Kept keptWithoutOrigin(Reader& reader, std::size_t variable);
     // As keep() where there is no room: without sorting.
     Kept keepNoMore(std::size_t step);
@@ -65,8 +65,9 @@ class StepMaker {
     bool hasUnwritten() const { return !unwritten_.empty(); }
     bool canWrite(Again again) const;
     // Writes one of them, if there is one, while goOn() says so, which is not asked while it is
-    // read; else it stays unwritten. Those still in use come first. What cannot be written is told
-    // by the store, and nothing more is: false then.
+    // read; else it stays for later. Those still in use come first. Where the store cannot write it
+    // tells so, and nothing more is written: false then. A step that cannot be read or sorted
+    // again, or has no room, is let go.
     bool writeOne(Again again, const GoOn& goOn);
 
  private:
@@ -78,7 +79,8 @@ class StepMaker {
         std::uint64_t bytes;  // of its list in memory, which is more than it takes on disk
     };
     static bool isInUse(const Unwritten& one) { return !one.sorted.expired(); }
-    StepStore::Wrote write(const Unwritten& one, const GoOn& goOn);
+    // `sorted`: null where nobody has it any more.
+    StepStore::Wrote write(const Unwritten& one, const SortedStep* sorted, const GoOn& goOn);
     // `changed`: as StepStore::find().
     std::shared_ptr<const SortedStep> find(const StepOrigin& origin, std::size_t step,
                                            bool* changed = nullptr);
