@@ -127,7 +127,7 @@ HWY_INLINE void light(Lanes lanes, const CellView& view, const TileRoom& room,
                       typename SeenBlocks<Lanes>::Block& block) {
     constexpr PixelBlock<Lanes, kTileStride> pixels;
     const SeenCell& c = *block.cell;
-    const LightLanes<Lanes> lit(lanes, view, c.steep);
+    const LightLanes<Lanes> lit(lanes, view, c.steep, c.perSize);
     RayParts<Lanes> r = raysOf(lanes, block);
     hn::Vec<Lanes> gradient[3], diffuse, specular;
     const auto factor = pixels.load(lanes, room.factor.data() + block.at);
@@ -135,8 +135,8 @@ HWY_INLINE void light(Lanes lanes, const CellView& view, const TileRoom& room,
         r.depth, inRange(lanes, c, hn::Load(lanes, block.value), hn::Load(lanes, block.change),
                          r.length, hn::Mul(hn::Load(lanes, block.weight), factor)));
     for (std::size_t a = 0; a < 3; ++a) r.middle[a] = hn::MulAdd(place, r.along[a], r.middle[a]);
-    const auto change = slopesAt(lanes, c, *block.slopes, r, gradient);
-    lit.template shade<kLit>(view, gradient, change, r.along, c.perSize, factor, diffuse, specular);
+    const auto change = slopesAt(lanes, *block.slopes, r, gradient);
+    lit.template shade<kLit>(gradient, change, r.along, factor, diffuse, specular);
     hn::Store(diffuse, lanes, block.diffuse);
     hn::Store(specular, lanes, block.specular);
 }

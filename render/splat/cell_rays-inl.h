@@ -83,7 +83,9 @@ struct CellLanes {
             return glm::vec3(v[0] * c.perSize[0], v[1] * c.perSize[1], v[2] * c.perSize[2]);
         };
         glm::vec3 x = inCell(view.perPixelX), y = inCell(view.perPixelY);
-        const double flat = cell::alongCell(glm::vec3(c.ray[0], c.ray[1], c.ray[2]), c.base, x, y);
+        double flat = 0;
+        if (c.mayBeFlat())
+            flat = cell::alongCell(glm::vec3(c.ray[0], c.ray[1], c.ray[2]), c.base, x, y);
         widest = cell::widestRamp(c, c.crossesLeast(), c.crossesMost(), static_cast<float>(flat));
         for (std::size_t a = 0; a < 3; ++a) {
             right[a] = hn::Set(l, x[static_cast<int>(a)]);
@@ -164,58 +166,61 @@ HWY_INLINE V inRange(Lanes lanes, const SeenPiece& c, V value, V change, V lengt
 // Where light comes from, if there is some.
 enum class Lit { No, FromEye, FromLamp };
 
-// What light makes of a colour where the field has a gradient. At pixels whose rays are `factor`
-// times as long as the view axis'.
+// What light makes of a colour where the field has a gradient, told in units of which an axis has
+// perAxis. At pixels whose rays are `factor` times as long as the view axis'.
 template <class Lanes>
 struct LightLanes {
     using V = hn::Vec<Lanes>;
     Lanes lanes;
-    V metric[6], steep, perUnit;
-    Light light;
-    LightLanes(Lanes l, const CellView& view, float steepness)
+    const CellView& view;
+    std::array<float, 3> perAxis;
+    V steep, perUnit;
+    LightLanes(Lanes l, const CellView& of, float steepness, const std::array<float, 3>& units)
         : lanes(l),
+          view(of),
+          perAxis(units),
           steep(hn::Set(l, steepness)),
-          perUnit(hn::Set(l, 1 / view.rayLength)),
-          light(view.light) {
-        for (std::size_t k = 0; k < 6; ++k) metric[k] = hn::Set(l, view.metric[k]);
-    }
-    // Of a gradient along the axes, which is `change` along a ray that goes on so, in units of
-    // which an axis has `perAxis`.
+          perUnit(hn::Set(l, 1 / view.rayLength)) {}
+    // Of a gradient, which is `change` along a ray that goes on so.
     template <Lit kLit>
-    HWY_INLINE void shade(const CellView& view, const V* g, V change, const V* way,
-                          const std::array<float, 3>& perAxis, V factor, V& diffuse,
+    HWY_INLINE void shade(const V* g, V change, const V* way, V factor, V& diffuse,
                           V& specular) const {
         const V one = hn::Set(lanes, 1.0f), tiny = hn::Set(lanes, 1e-30f);
-        V g2 = hn::Mul(hn::Mul(metric[0], g[0]), g[0]);
-        g2 = hn::MulAdd(hn::Mul(metric[1], g[1]), g[1], g2);
-        g2 = hn::MulAdd(hn::Mul(metric[2], g[2]), g[2], g2);
-        g2 = hn::MulAdd(hn::Mul(metric[3], g[0]), g[1], g2);
-        g2 = hn::MulAdd(hn::Mul(metric[4], g[0]), g[2], g2);
-        g2 = hn::MulAdd(hn::Mul(metric[5], g[1]), g[2], g2);
-        const V per = reciprocalRoot(lanes, hn::Max(g2, tiny));
+        const V per = reciprocalRoot(lanes, hn::Max(square(g), tiny));
         const V certainty = reciprocal(lanes, hn::MulAdd(steep, per, one));
         const V perLength = hn::Mul(perUnit, reciprocal(lanes, factor));
         const V facing = hn::Min(one, hn::Mul(hn::Mul(hn::Abs(change), per), perLength));
         if constexpr (kLit == Lit::FromEye) {
-            lightOf(lanes, light, certainty, facing, facing, diffuse, specular);
+            lightOf(lanes, view.light, certainty, facing, facing, diffuse, specular);
         } else {
             V ofGradient = hn::Zero(lanes), ofRay = ofGradient;
             for (int a = 0; a < 3; ++a) {
-                const auto axis = static_cast<std::size_t>(a);
-                ofGradient = hn::MulAdd(hn::Set(lanes, view.lamp->ofGradient[a]), g[a], ofGradient);
-                ofRay =
-                    hn::MulAdd(hn::Set(lanes, view.lamp->ofWay[a] / perAxis[axis]), way[a], ofRay);
+                const float unit = perAxis[static_cast<std::size_t>(a)];
+                ofGradient =
+                    hn::MulAdd(hn::Set(lanes, view.lamp->ofGradient[a] * unit), g[a], ofGradient);
+                ofRay = hn::MulAdd(hn::Set(lanes, view.lamp->ofWay[a] / unit), way[a], ofRay);
             }
-            lampLightOf(lanes, light, certainty, hn::Mul(ofGradient, per), facing, change,
+            lampLightOf(lanes, view.light, certainty, hn::Mul(ofGradient, per), facing, change,
                         hn::Mul(ofRay, perLength), diffuse, specular);
         }
     }
+    // In the world.
+    HWY_INLINE V square(const V* g) const {
+        const auto of = [&](std::size_t k, std::size_t a, std::size_t b) HWY_ATTR {
+            return hn::Mul(hn::Set(lanes, view.metric[k] * perAxis[a] * perAxis[b]), g[a]);
+        };
+        const V alone = hn::MulAdd(of(0, 0, 0), g[0],
+                                   hn::MulAdd(of(1, 1, 1), g[1], hn::Mul(of(2, 2, 2), g[2])));
+        if (view.isUpright) return alone;
+        return hn::MulAdd(of(3, 0, 1), g[1],
+                          hn::MulAdd(of(4, 0, 2), g[2], hn::MulAdd(of(5, 1, 2), g[2], alone)));
+    }
 };
 
-// The gradient by which light falls on a cell, at a place of it.
+// The gradient by which light falls on a cell, at a place of it, in its units; returns what it is
+// along the ray.
 template <class Lanes, class V = hn::Vec<Lanes>>
-HWY_INLINE V slopesAt(Lanes lanes, const SeenCell& c, const CellSlopes& slopes,
-                      const RayParts<Lanes>& r, V* g) {
+HWY_INLINE V slopesAt(Lanes lanes, const CellSlopes& slopes, const RayParts<Lanes>& r, V* g) {
     const V* const m = r.middle;
     V change = hn::Zero(lanes);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -223,9 +228,8 @@ HWY_INLINE V slopesAt(Lanes lanes, const SeenCell& c, const CellSlopes& slopes,
         const auto inZ = [&](std::size_t low, std::size_t high)
                              HWY_ATTR { return hn::MulAdd(f(high), m[2], f(low)); };
         const V ofX = hn::MulAdd(inZ(4, 7), m[1], inZ(1, 5));
-        const V sum = hn::MulAdd(ofX, m[0], hn::MulAdd(inZ(2, 6), m[1], inZ(0, 3)));
-        change = hn::MulAdd(sum, r.along[a], change);
-        g[a] = hn::Mul(sum, hn::Set(lanes, c.perSize[a]));
+        g[a] = hn::MulAdd(ofX, m[0], hn::MulAdd(inZ(2, 6), m[1], inZ(0, 3)));
+        change = hn::MulAdd(g[a], r.along[a], change);
     }
     return change;
 }

@@ -9,8 +9,9 @@
 namespace render {
 namespace {
 
-constexpr double kMost = 1e9;  // its square is a float
+constexpr double kMost = static_cast<double>(kMostSlope);
 constexpr double kMostUnits = 1e300;
+constexpr double kLeastExtent = 1e-300;  // what a number may be divided by
 
 }  // namespace
 
@@ -64,42 +65,44 @@ std::array<glm::dvec3, 8> PointSlopes::gradients(const glm::uvec3& cell, double 
     return out;
 }
 
-// Where every value is there: false where a difference is no number.
-bool PointSlopes::takeWhole(const glm::uvec3& cell, const glm::dvec3& perExtent,
-                            CellSlopes& slopes) const {
+void PointSlopes::add(std::uint32_t cell, const glm::dvec3& size, double extent,
+                      SlopeBatch& batch) const {
     const timeseries::Field& field = scene_.cells->field();
-    const bool mayMiss = !field.missing.empty();
     const timeseries::CellCorners& corners = scene_.cells->cornersOf();
-    const glm::uvec3 low = corners.pointAt(cell, 0), high = corners.pointAt(cell, 7);
-    const std::array points = corners.pointsOf(cell);
-    double none = 0;
-    const auto take = [&](const auto& values) {
-        const auto valueOf = [&](std::uint32_t i) {
-            const auto value = static_cast<double>(values[i]);
-            return mayMiss && field.missing[i] ? std::numeric_limits<double>::quiet_NaN() : value;
-        };
-        for (unsigned c = 0; c < 8; ++c)
-            for (int a = 0; a < 3; ++a) {
-                const Neighbours& to =
-                    along_[static_cast<std::size_t>(a)][(c >> a & 1 ? high : low)[a]];
-                const auto point = static_cast<std::uint32_t>(points[c]);
-                const double below = valueOf(point - to.below), above = valueOf(point + to.above);
-                const double slope = (0.5 * above - 0.5 * below) * (perExtent[a] * to.perBoth);
-                none += slope - slope;
-                slopes[static_cast<std::size_t>(a)][c] =
-                    static_cast<float>(std::clamp(slope, -kMost, kMost));
-            }
+    const glm::uvec3 at = cells_(cell);
+    const glm::uvec3 low = corners.pointAt(at, 0), high = corners.pointAt(at, 7);
+    const std::array points = corners.pointsOf(at);
+    const std::size_t to = batch.count++;
+    const double perExtent = extent > 0 ? 2 / std::max(extent, kLeastExtent) : 0;
+    const auto addAlong = [&]<std::size_t kAxis>(const auto& values) {
+        constexpr auto kA = static_cast<int>(kAxis);
+        const std::array beside{along_[kAxis][low[kA]], along_[kAxis][high[kA]]};
+        for (std::size_t end = 0; end < 2; ++end)
+            batch.scale[kAxis][end][to] = size[kA] * perExtent * beside[end].perBoth;
+#pragma GCC unroll 8
+        for (std::size_t c = 0; c < 8; ++c) {
+            const Neighbours& of = beside[c >> kAxis & 1];
+            const std::uint64_t below = points[c] - of.below, above = points[c] + of.above;
+            double half =
+                0.5 * static_cast<double>(values[above]) - 0.5 * static_cast<double>(values[below]);
+            if (!field.missing.empty() && (field.missing[below] || field.missing[above]))
+                half = std::numeric_limits<double>::quiet_NaN();
+            batch.difference[kAxis][c][to] = half;
+        }
     };
-    std::visit(take, field.values);
-    return none == 0;
+    std::visit(
+        [&](const auto& values) {
+            addAlong.template operator()<0>(values);
+            addAlong.template operator()<1>(values);
+            addAlong.template operator()<2>(values);
+        },
+        field.values);
 }
 
 CellSlopes PointSlopes::atCorners(const glm::uvec3& cell, const glm::dvec3& size,
                                   double extent) const {
-    constexpr double kLeastExtent = 1e-300;  // what a number may be divided by
     CellSlopes slopes{};
-    if (!(extent > 0) || takeWhole(cell, size * (2 / std::max(extent, kLeastExtent)), slopes))
-        return slopes;
+    if (!(extent > 0)) return slopes;
     const std::array<glm::dvec3, 8> all = gradients(cell, extent);
     for (unsigned c = 0; c < 8; ++c)
         for (int a = 0; a < 3; ++a)

@@ -4,17 +4,15 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "render/model/scene.h"
+#include "render/splat/slope_batch.h"
 
 namespace render {
-
-// Of a piece of a cell whose field is reference + extent f, what f changes over the piece's size
-// along each axis: the coefficients of each, as those of CellSplat::f.
-using CellSlopes = std::array<std::array<float, 8>, 3>;
 
 // Of an upright grid. At its borders, and beside what is missing, differences are to one side. The
 // scene must outlive it.
@@ -28,6 +26,8 @@ class PointSlopes {
         double unit = 0;  // a power of two, so that nothing depends on which octant was the first
         std::array<glm::dvec3, 8> gradients{};
     };
+    // Adds a whole cell, as those that in() says. REQUIRES: there is room.
+    void add(std::uint32_t cell, const glm::dvec3& size, double extent, SlopeBatch& batch) const;
     // Of a cell's octant, or of all of it (kWholeCell), which is of this size.
     CellSlopes in(std::uint32_t cell, unsigned octant, const glm::dvec3& size, double extent,
                   OfOctants& last) const;
@@ -43,8 +43,6 @@ class PointSlopes {
         double perBoth, perBelow, perAbove;
     };
     glm::dvec3 at(const glm::uvec3& point, double extent) const;
-
-    bool takeWhole(const glm::uvec3& cell, const glm::dvec3& perExtent, CellSlopes& slopes) const;
 
     const Scene& scene_;
     timeseries::IndicesAlong cells_;

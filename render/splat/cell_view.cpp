@@ -58,7 +58,8 @@ CellView::CellView(const PointsView& from, const Scene& scene, const View& view,
       byValue(std::ranges::any_of(
           scene.layers,
           [](const Layer& layer) { return std::holds_alternative<ByValue>(layer.style.color); })),
-      metric(gradientMetric(scene.placed)) {}
+      metric(gradientMetric(scene.placed)),
+      isUpright(metric[3] == 0 && metric[4] == 0 && metric[5] == 0) {}
 
 namespace {
 

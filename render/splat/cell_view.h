@@ -36,6 +36,7 @@ struct CellView : TileLayout {
     double steep;  // what gradients are measured against, of the field a length of the world
     bool byValue;  // some layer's colours are
     std::array<float, 6> metric;  // gradientMetric()
+    bool isUpright;               // its last three are 0
 
  private:
     CellView(const PointsView& seen, const Scene& scene, const View& view, Channels channels,
@@ -78,7 +79,14 @@ struct SeenPiece {
     bool crossesMost() const { return (flags & kCrossesMost) != 0; }
     // Some of its rays may lie along a face.
     bool grazes() const { return (flags & kGrazes) != 0; }
-    enum PieceFlag : std::uint32_t { kCrossesLeast = 1, kCrossesMost = 2, kGrazes = 4 };
+    // A pixel's steps may have to be turned along it (cell::alongCell).
+    bool mayBeFlat() const { return (flags & kMayBeFlat) != 0; }
+    enum PieceFlag : std::uint32_t {
+        kCrossesLeast = 1,
+        kCrossesMost = 2,
+        kGrazes = 4,
+        kMayBeFlat = 8
+    };
 };
 // The tiles that its pixels are in.
 TileSpan spanOf(const CellView& view, const SeenPiece& c);

@@ -53,6 +53,19 @@ HWY_INLINE void cross(const V* a, const V* b, V* product) {
     }
 }
 
+// As cell::coefficients(), but each where its corner was.
+template <class V>
+HWY_INLINE void toCoefficients(V* corners) {
+    const hn::DFromV<V> lanes;
+    for (const std::size_t step : {1u, 2u, 4u})
+        for (std::size_t i = 0; i < 8; ++i)
+            if ((i & step) == 0) {
+                const V a = corners[i], b = corners[i + step];
+                corners[i] = hn::Mul(hn::Set(lanes, 0.5f), hn::Add(a, b));
+                corners[i + step] = hn::Sub(b, a);
+            }
+}
+
 // Four floats of each lane, as they lie in records of it: row(k) is where lane k's do.
 template <class Lanes, class Row>
 HWY_INLINE hn::Vec<Lanes> everyFourth(Lanes lanes, std::size_t first, const Row& row) {

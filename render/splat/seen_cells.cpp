@@ -154,13 +154,7 @@ struct SeenLanes {
     }
     // As cell::coefficients().
     HWY_INLINE void storeCoefficients(D* f, std::size_t from) const {
-        for (const std::size_t step : {1u, 2u, 4u})
-            for (std::size_t i = 0; i < 8; ++i)
-                if ((i & step) == 0) {
-                    const D a = f[i], b = f[i + step];
-                    f[i] = hn::Mul(d(0.5), hn::Add(a, b));
-                    f[i + step] = hn::Sub(b, a);
-                }
+        toCoefficients(f);
         constexpr std::size_t kOrder[] = {0, 1, 2, 4, 3, 5, 6, 7};
         for (std::size_t c = 0; c < 8; ++c)
             store(f[kOrder[c]], rows.field[seen_cell::kF + c], from);
@@ -224,12 +218,18 @@ struct SeenLanes {
         const I lastColumn = hn::ConvertTo(Ints(), hn::Sub(columns, f(1)));
         const I lastLine = hn::ConvertTo(Ints(), hn::Sub(lines, f(1)));
         putInts(hn::Or(lastColumn, hn::ShiftLeft<16>(lastLine)), seen_cell::kLastPixels);
-        takeFlags(grazing(columns, lines));
+        takeFlags(columns, lines);
     }
     HWY_INLINE void putInts(I v, std::size_t field) const {
         put(hn::BitCast(Floats(), v), rows.field[field], at);
     }
-    HWY_INLINE void takeFlags(hn::Mask<Floats> grazes) const {
+    HWY_INLINE void takeFlags(F columns, F lines) const {
+        constexpr double kLess = 1e-5;  // than arithmetic loses
+        F widest;
+        const auto grazes = grazing(columns, lines, widest);
+        const F base = hn::LoadU(Floats(), rows.field[seen_cell::kBase].data() + at);
+        const auto flat =
+            hn::Gt(hn::Mul(base, widest), f(static_cast<float>(kOrdinaryStep * (1 - kLess))));
         const auto flag = [&](hn::Mask<Floats> is, SeenPiece::PieceFlag bit) HWY_ATTR {
             return hn::IfThenElseZero(hn::RebindMask(Ints(), is),
                                       hn::Set(Ints(), static_cast<std::int32_t>(bit)));
@@ -237,15 +237,16 @@ struct SeenLanes {
         const auto crosses = [&](const PieceBatch::Row<float>& row) HWY_ATTR {
             return hn::Gt(hn::LoadU(Floats(), row.data() + at), hn::Zero(Floats()));
         };
-        putInts(hn::Or(flag(crosses(rows.crossesLeast), SeenPiece::kCrossesLeast),
-                       hn::Or(flag(crosses(rows.crossesMost), SeenPiece::kCrossesMost),
-                              flag(grazes, SeenPiece::kGrazes))),
-                seen_cell::kFlags);
+        const I ends = hn::Or(flag(crosses(rows.crossesLeast), SeenPiece::kCrossesLeast),
+                              flag(crosses(rows.crossesMost), SeenPiece::kCrossesMost));
+        const I lies = hn::Or(flag(grazes, SeenPiece::kGrazes), flag(flat, SeenPiece::kMayBeFlat));
+        putInts(hn::Or(ends, lies), seen_cell::kFlags);
     }
 
     // Whether some of these rays, or a little beside them, go along a face: along an axis of the
-    // cell they are what the middle one is, and so much at most more or less.
-    HWY_INLINE hn::Mask<Floats> grazing(F columns, F lines) const {
+    // cell they are what the middle one is, and so much at most more or less. And how much of a
+    // cell a pixel's step is at most, a unit of depth.
+    HWY_INLINE hn::Mask<Floats> grazing(F columns, F lines, F& widest) const {
         constexpr float kMore = 8;  // pixels of a vector, and what arithmetic loses
         const F ox = hn::LoadU(Floats(), rows.field[seen_cell::kOx].data() + at);
         const F oy = hn::LoadU(Floats(), rows.field[seen_cell::kOy].data() + at);
@@ -255,11 +256,13 @@ struct SeenLanes {
         };
         const F x = farthest(ox, columns), y = farthest(oy, lines);
         F some = hn::Zero(Floats());
+        widest = some;
         for (std::size_t a = 0; a < 3; ++a) {
             const F ray = hn::LoadU(Floats(), rows.field[seen_cell::kRay + a].data() + at);
             const F perSize = hn::LoadU(Floats(), rows.field[seen_cell::kPerSize + a].data() + at);
             const F right = hn::Mul(perSize, f(view.perPixelX[a]));
             const F up = hn::Mul(perSize, f(view.perPixelY[a]));
+            widest = hn::Max(widest, hn::Max(hn::Abs(right), hn::Abs(up)));
             const F shift = hn::MulAdd(x, hn::Abs(right), hn::Mul(y, hn::Abs(up)));
             const F one = f(1), zero = hn::Zero(Floats());
             some = hn::Max(some, hn::IfThenElse(hn::Gt(hn::Abs(ray), shift), zero, one));
@@ -309,6 +312,36 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 HWY_EXPORT(FindCells);
 
+namespace {
+
+// Of those that are seen.
+void addSlopes(const PointSlopes& points, const PieceBatch& pieces, const SeenRows& rows,
+               timeseries::PageVector<CellSlopes>& slopes) {
+    static_assert(SlopeBatch::kMost == PieceBatch::kMost);
+    SlopeBatch whole;
+    std::array<std::size_t, PieceBatch::kMost> piece;
+    SlopeBatch::Row isNone;
+    const auto sizeOf = [&](std::size_t i) {
+        return glm::dvec3(pieces.to[0][i] - pieces.from[0][i], pieces.to[1][i] - pieces.from[1][i],
+                          pieces.to[2][i] - pieces.from[2][i]);
+    };
+    for (std::size_t i = 0; i < pieces.count; ++i) {
+        if (rows.isSeen[i] == 0) continue;
+        piece[whole.count] = i;
+        points.add(pieces.cell[i], sizeOf(i), rows.extent[i], whole);
+    }
+    const std::size_t before = slopes.size();
+    slopes.resize(before + whole.count);
+    whole.take(slopes.data() + before, isNone);
+    PointSlopes::OfOctants last;
+    for (std::size_t k = 0; k < whole.count; ++k)
+        if (const std::size_t i = piece[k]; isNone[k] != 0 || pieces.octant[i] != kWholeCell)
+            slopes[before + k] =
+                points.in(pieces.cell[i], pieces.octant[i], sizeOf(i), rows.extent[i], last);
+}
+
+}  // namespace
+
 void seeCells(const CellView& view, const Scene& scene, const PointSlopes* points,
               const PieceBatch& pieces, timeseries::PageVector<SeenCell>& cells,
               timeseries::PageVector<CellSlopes>& slopes, std::vector<TileSpan>& spans) {
@@ -318,7 +351,6 @@ void seeCells(const CellView& view, const Scene& scene, const PointSlopes* point
     cells.resize(seen + pieces.count);
     const SeenCell* const end = HWY_DYNAMIC_DISPATCH(FindCells)(
         view, scene.opacityPer == OpacityPer::Crossing, pieces, rows, cells.data() + seen);
-    PointSlopes::OfOctants ofOctants;
     for (std::size_t i = 0; i < pieces.count; ++i) {
         if (rows.isSeen[i] == 0) continue;
         spans.push_back({static_cast<std::uint32_t>(rows.tileY[i] * view.tiles.x + rows.tileX[i]),
@@ -328,16 +360,9 @@ void seeCells(const CellView& view, const Scene& scene, const PointSlopes* point
         takeTints(c, view, pieces.layer[i], scene.layers[pieces.layer[i]].style,
                   cell::coloredField({rows.reference[i], rows.extent[i]}, c.perRange > 0,
                                      pieces.lo[i], pieces.hi[i]));
-        if (view.light == Light::Off) continue;
-        glm::dvec3 size;
-        for (int a = 0; a < 3; ++a) {
-            const auto axis = static_cast<std::size_t>(a);
-            size[a] = pieces.to[axis][i] - pieces.from[axis][i];
-        }
-        slopes.push_back(
-            points->in(pieces.cell[i], pieces.octant[i], size, rows.extent[i], ofOctants));
     }
     cells.resize(static_cast<std::size_t>(end - cells.data()));
+    if (view.light != Light::Off) addSlopes(*points, pieces, rows, slopes);
 }
 }  // namespace render
 #endif

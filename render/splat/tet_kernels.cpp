@@ -46,16 +46,14 @@ struct TetLight {
     const TetSlopes& slopes;
     V right[3], up[3];  // of the way of a ray, a pixel
     TetLight(const CellView& view, const TetSlopes& of)
-        : light(Lanes(), view, of.steep), slopes(of) {
+        : light(Lanes(), view, of.steep, {1, 1, 1}), slopes(of) {
         for (std::size_t a = 0; a < 3; ++a) {
             right[a] = set(view.perPixelX[a]);
             up[a] = set(view.perPixelY[a]);
         }
     }
     // At a depth from the base, on rays of such pixels.
-    HWY_INLINE void shade(const CellView& view, V ox, V oy, V base, V depth, V factor, V& diffuse,
-                          V& specular) const {
-        constexpr std::array<float, 3> kPerAxis{1, 1, 1};
+    HWY_INLINE void shade(V ox, V oy, V base, V depth, V factor, V& diffuse, V& specular) const {
         V g[3], way[3], change = set(0);
         for (std::size_t a = 0; a < 3; ++a) {
             const TetSlopes::Along& f = slopes.along[a];
@@ -65,12 +63,10 @@ struct TetLight {
             way[a] = hn::MulAdd(ox, right[a], hn::MulAdd(oy, up[a], set(slopes.way[a])));
             change = hn::MulAdd(g[a], way[a], change);
         }
-        if (view.lamp)
-            light.template shade<Lit::FromLamp>(view, g, change, way, kPerAxis, factor, diffuse,
-                                                specular);
+        if (light.view.lamp)
+            light.template shade<Lit::FromLamp>(g, change, way, factor, diffuse, specular);
         else
-            light.template shade<Lit::FromEye>(view, g, change, way, kPerAxis, factor, diffuse,
-                                               specular);
+            light.template shade<Lit::FromEye>(g, change, way, factor, diffuse, specular);
     }
 };
 
@@ -160,7 +156,7 @@ HWY_INLINE void addTet(const CellView& view, const SeenTet& c, const TetSlopes* 
                 V diffuse, specular;
                 const V depth =
                     hn::Add(middle, inRange(lanes, c, value, change, length, hn::Mul(t, factor)));
-                TetLight(view, *slopes).shade(view, ox, oy, base, depth, factor, diffuse, specular);
+                TetLight(view, *slopes).shade(ox, oy, base, depth, factor, diffuse, specular);
                 for (int k = 0; k < 3; ++k) colors[k] = hn::MulAdd(colors[k], diffuse, specular);
             });
         }

@@ -256,23 +256,30 @@ TEST(CellSplatter, CellsHideWhatIsBehindThem) {
     }
 }
 
-// A ramp along x has one gradient everywhere: how bright it is depends on the ray alone. Of one
+// A ramp has one gradient everywhere: how bright it is depends on the ray alone. Of one
 // colour and one layer, light multiplies what is drawn without.
 TEST(CellSplatter, LightIsThatOfARampsOneGradient) {
     const auto lean = tests::leaning({1, 0, 0.2}, {0.5, 1, 0}, {-0.3, 0.3, 1});
     const std::array axes{axis(6), axis(5, 0, 0.7), axis(4)};
     const auto grid = std::make_shared<const Grid>(axes, timeseries::CoordinateFrame{lean});
-    CellWorld world(tests::stepOf(grid, [&](std::size_t i) { return double(grid->indices(i).x); }),
-                    {"2.2:3.6"});
+    const glm::dvec3 perIndex(1, 0.6, -0.3);
+    CellWorld world(
+        tests::stepOf(
+            grid, [&](std::size_t i) { return glm::dot(perIndex, glm::dvec3(grid->indices(i))); }),
+        {"2.6:3.9"});  // none of the domain's corners, which are plateaus
     world.scene.order = Order::BackToFront;
     const View view = tests::lookFrom({1.1, -2.5, 0.8}, {40, 30});
     const std::vector<float> dark = drawn(world.scene, view, Channels::Over);
-    // Across the planes x = const of the grid: along the product of the two other axes.
     const glm::dmat3& m = world.placed.worldFromAxes();
-    const glm::dvec3 normal = glm::normalize(glm::cross(m[1], m[2]));
-    const double perLength =
-        1 / std::abs(world.placed.positions()[0][1] - world.placed.positions()[0][0]) /
-        std::abs(glm::dot(m[0], normal));
+    glm::dvec3 alongAxes;
+    for (int a = 0; a < 3; ++a) {
+        const std::vector<double>& places = world.placed.positions()[static_cast<std::size_t>(a)];
+        alongAxes[a] = perIndex[a] / (places[1] - places[0]);
+    }
+    // Whose product with a way in the world is that of these with the way along the axes.
+    const glm::dvec3 gradient = glm::inverse(glm::transpose(m)) * alongAxes;
+    const glm::dvec3 normal = glm::normalize(gradient);
+    const double perLength = glm::length(gradient);
     const double steep = world.scene.cells->halfRange(world.scene.layers[0].cells.candidates, 0.9);
     const double certainty = perLength / (perLength + 0.2 * steep / world.placed.unitLength());
     int lit = 0;

@@ -4,11 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
+#include "tests/support/cell_worlds.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sorted.h"
 
 namespace {
 
@@ -64,6 +68,13 @@ void expectSeen(const SeenCell& is, const CellSplat<double>& of, const CellView&
         EXPECT_NEAR(is.ray[axis], of.ray[a], 1e-6 * (std::abs(of.ray[a]) + glm::length(of.ray)));
         EXPECT_NEAR(is.perSize[axis], of.perSize[a], 1e-6 * std::abs(of.perSize[a]));
     }
+    double step = 0;  // how much of the cell a pixel is
+    for (std::size_t a = 0; a < 3; ++a)
+        for (const float pixel : {view.perPixelX[a], view.perPixelY[a]})
+            step = std::max(step, std::abs(of.base * pixel * of.perSize[static_cast<int>(a)]));
+    if (std::abs(step - kOrdinaryStep) > 1e-3) {
+        EXPECT_EQ(is.mayBeFlat(), step > kOrdinaryStep) << step;
+    }
     const int first[] = {is.x, is.y}, count[] = {is.columns(), is.rows()};
     const float offset[] = {is.ox, is.oy};
     for (int k = 0; k < 2; ++k) {
@@ -94,7 +105,7 @@ bool hasPixels(const CellSplat<double>& s, const CellView& view, double wider) {
 }
 
 struct Looked {
-    std::size_t seen = 0, nearEye = 0, thin = 0, flat = 0;
+    std::size_t seen = 0, nearEye = 0, thin = 0, flat = 0, small = 0;
 };
 
 Looked look(const View& from, double side, OpacityPer per, int rays = 1) {
@@ -127,6 +138,7 @@ Looked look(const View& from, double side, OpacityPer per, int rays = 1) {
             looked.nearEye += s.base == 0;
             looked.thin += s.perRange > 0;
             looked.flat += s.extent == 0;
+            looked.small += seen[i].mayBeFlat();
             const glm::ivec2 tile(static_cast<int>(spans[i].first) % view.tiles.x,
                                   static_cast<int>(spans[i].first) / view.tiles.x);
             const glm::ivec2 last(seen[i].x + seen[i].columns() - 1,
@@ -142,6 +154,8 @@ TEST(SeenCells, AreWhatOneByOneTheyAre) {
     const View from = tests::lookFrom({1.1, -2.4, 0.8}, kSize);
     EXPECT_GT(look(from, 0.1, OpacityPer::Length).seen, 300u);
     EXPECT_GT(look(from, 0.03, OpacityPer::Length).flat, 10u);
+    EXPECT_GT(look(from, 0.03, OpacityPer::Length).small, 10u);
+    EXPECT_EQ(look(from, 0.4, OpacityPer::Length).small, 0u);
     EXPECT_GT(look(from, 0.1, OpacityPer::Crossing).thin, 100u);
 }
 
@@ -153,6 +167,63 @@ TEST(SeenCells, AroundTheEyeToo) {
 TEST(SeenCells, OfSeveralRaysAPixel) {
     const View from = tests::lookFrom({1.1, -2.4, 0.8}, kSize);
     EXPECT_GT(look(from, 0.01, OpacityPer::Crossing, 8).seen, 300u);
+}
+
+// Also of octants beside what is missing, and of cells beside those.
+TEST(SeenCells, AreLitByThePointsSlopes) {
+    timeseries::Field field{tests::cube(8), std::vector<float>(512), {}};
+    auto& values = std::get<std::vector<float>>(field.values);
+    std::mt19937 random(6);
+    for (float& v : values) v = static_cast<float>(random() % 1000);
+    for (const std::size_t i : {0u, 150u, 151u, 300u})
+        values[i] = std::numeric_limits<float>::quiet_NaN();
+    tests::CellWorld world(tests::sorted(field), {"min:max"});
+    world.scene.order = Order::BackToFront;
+    world.scene.light = Light::Soft;
+    const CellView view(world.scene, tests::lookFrom({1.1, -2.4, 0.8}, kSize), Channels::Over, 1);
+    const PointSlopes points(world.scene);
+    const auto seenOf = [&](const PieceBatch& pieces) {
+        timeseries::PageVector<SeenCell> seen;
+        timeseries::PageVector<CellSlopes> slopes;
+        std::vector<TileSpan> spans;
+        seeCells(view, world.scene, &points, pieces, seen, slopes, spans);
+        EXPECT_EQ(seen.size(), slopes.size());
+        return slopes;
+    };
+    PieceBatch pieces;
+    std::vector<CellSlopes> expected;
+    std::size_t whole = 0, octants = 0;
+    const auto look = [&] {
+        const auto slopes = seenOf(pieces);
+        ASSERT_EQ(slopes.size(), expected.size());
+        for (std::size_t i = 0; i < slopes.size(); ++i)
+            for (std::size_t a = 0; a < 3; ++a)
+                for (std::size_t k = 0; k < 8; ++k)
+                    ASSERT_NEAR(slopes[i][a][k], expected[i][a][k], 1e-5);
+        pieces.count = 0;
+        expected.clear();
+    };
+    PointSlopes::OfOctants last;
+    for (const bool isClipped : {false, true})
+        for (std::uint32_t cell = 0; cell < 9 * 9 * 9; ++cell) {
+            if (isClipped) world.scene.clip = {{1, 0, 2}, {6, 7, 7}};
+            forEachPiece(world.scene, cell, [&](ValuedCell piece, unsigned octant) {
+                piece.lo = 0;
+                piece.hi = 1000;
+                PieceBatch alone;
+                for (PieceBatch* batch : {&alone, &pieces})
+                    batch->add(piece, {.cell = cell, .layer = 0}, octant);
+                const auto [least, greatest] = std::ranges::minmax(piece.corners);
+                if (!seenOf(alone).empty())
+                    expected.push_back(points.in(cell, octant, piece.to - piece.from,
+                                                 0.5 * greatest - 0.5 * least, last));
+                (octant == kWholeCell ? whole : octants) += 1;
+                if (pieces.isFull()) look();
+            });
+        }
+    look();
+    EXPECT_GT(whole, 400u);
+    EXPECT_GT(octants, 50u);
 }
 
 // Rays along an axis divide by nothing, those beside it by what they are.

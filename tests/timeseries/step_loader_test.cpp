@@ -315,10 +315,10 @@ TEST_F(StepLoaderWrites, TheseNotBeforeASecondWithoutWishes) {
     wantAll(StepLoader::Haste::Waited);
     takeAll(Each::Leaves);
     auto last = std::chrono::steady_clock::now();
-    for (std::size_t i = 0; i < 30; ++i) {
+    for (int i = 0; i < 30; ++i) {
         std::this_thread::sleep_for(10ms);
         last = std::chrono::steady_clock::now();
-        loader_->want({i % kSteps}, StepLoader::Haste::Waited);
+        loader_->want({0}, StepLoader::Haste::Waited);
         EXPECT_TRUE(loader_->waitAndPoll());
     }
     expectAllWritten();
