@@ -199,6 +199,8 @@ bool seeField(CellSplat<Real>& s, const ValuedCell& cell, double unitLength) {
 
 // How wide a ramp about each end of the range may be, of a cell that is so flat. An end at the
 // cell's least or greatest value is its neighbour's as well, which takes the ramp's other half.
+// Where it is there and where no more, arithmetic does not decide: ends of whole numbers lie at any
+// share of a cell.
 template <typename Real, typename Splat>
 Real widestRamp(const Splat& s, bool crossesLeast, bool crossesMost, Real flat) {
     constexpr Real kAny = Real(1e18);  // its square is a float
@@ -206,7 +208,9 @@ Real widestRamp(const Splat& s, bool crossesLeast, bool crossesMost, Real flat) 
     Real widest = kAny;
     const auto limit = [&](Real end) {
         const Real beside = std::abs(1 - std::abs(end));
-        widest = std::min(widest, beside > Real(kThinnest) ? 2 * beside : Real(kSharedRamp));
+        const Real shared = std::clamp(2 - beside / Real(kThinnest / 2), Real(0), Real(1));
+        const Real own = std::min(2 * beside, kAny);
+        widest = std::min(widest, own + shared * (Real(kSharedRamp) - own));
     };
     if (crossesLeast) limit(s.least);
     if (crossesMost) limit(s.most);

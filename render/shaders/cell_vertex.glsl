@@ -18,10 +18,11 @@ const float kOrdinaryStep = 0.25, kFlatStep = 0.5, kNarrowRamp = 0.125, kSharedR
 float flatnessOf(float step) { return clamp((step - kOrdinaryStep) / (kFlatStep - kOrdinaryStep), 0.0, 1.0); }
 float widestRamp(float least, float most, uint crosses, float flatness) {
     if (!(flatness > 0.0)) return 1e18;
-    const vec2 beside = abs(1.0 - abs(vec2(least, most)));
+    const vec2 beside = abs(1.0 - abs(vec2(least, most))), own = min(2.0 * beside, 1e18);
+    const vec2 ramp = mix(own, vec2(kSharedRamp), clamp(2.0 - beside / (0.5 * kThinnest), 0.0, 1.0));
     float widest = 1e18;
-    if ((crosses & 1u) != 0u) widest = min(widest, beside.x > kThinnest ? 2.0 * beside.x : kSharedRamp);
-    if ((crosses & 2u) != 0u) widest = min(widest, beside.y > kThinnest ? 2.0 * beside.y : kSharedRamp);
+    if ((crosses & 1u) != 0u) widest = min(widest, ramp.x);
+    if ((crosses & 2u) != 0u) widest = min(widest, ramp.y);
     return max(widest, kNarrowRamp) / flatness;
 }
 

@@ -85,6 +85,24 @@ TEST(FlatCells, ALayerIsPassedOnceHoweverFlatItIs) {
             }
 }
 
+// Ends of ranges of whole numbers lie at a hundredth of what a cell changes, and at other shares.
+TEST(FlatCells, RoundingDoesNotDecideHowWideARampIs) {
+    const auto widthOf = []<typename Real>(Real end) {
+        struct {
+            Real least, most;
+        } const ends{end, 0};
+        return static_cast<double>(cell::widestRamp(ends, true, false, Real(1)));
+    };
+    for (int extent = 1; extent <= 255; ++extent)
+        for (int above = 0; above < extent; ++above) {
+            const double end = -1 + (above + 0.5) / extent;
+            EXPECT_NEAR(widthOf(static_cast<float>(end)), widthOf(end), 1e-4)
+                << above << " of " << extent;
+        }
+    EXPECT_NEAR(widthOf(-1.0), kSharedRamp, 1e-12) << "at the end of the cell";
+    EXPECT_NEAR(widthOf(-0.5), 1, 1e-12) << "the cell has room for it on both sides";
+}
+
 TEST(FlatCells, ALayersLengthIsItsOwn) {
     for (const bool placedOneByOne : {false, true})
         for (const double height : {0.3, 0.02, 1e-3}) {
